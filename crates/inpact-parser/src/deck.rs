@@ -60,7 +60,7 @@ pub struct Block {
 pub enum RowsKept {
     /// All of them.
     All,
-    /// The first and the last of a table in order; the model has the first and the last row of each group ([`Keep::Ends`]).
+    /// The first and the last row of a well-ordered table; the model has the first and the last row of each group ([`Keep::Ends`]).
     Ends,
     /// None: they are those of a mesh.
     None,
@@ -109,7 +109,7 @@ pub enum LineNoteKind {
     IndentedComment,
     /// A row whose text is not kept, and that begins with the full name of a keyword (S-05).
     ///
-    /// Each has a note of its own, up to a hundred of a block.
+    /// Each has a separate note, up to a hundred per block.
     LikeKeyword,
 }
 
@@ -189,7 +189,7 @@ impl Deck {
         self.source(block.rows().source()).ends_of(block.rows())
     }
 
-    /// Takes down that somebody needs the rows of a block that were dropped.
+    /// Records an access to the rows of a block that were dropped.
     pub(crate) fn miss_rows(&self, block: &Block) {
         self.source(block.rows().source()).miss();
     }
@@ -262,7 +262,7 @@ impl Deck {
 }
 
 impl Block {
-    /// A block without a keyword, or with one right before its rows.
+    /// A block without a keyword, or with one directly before its rows.
     fn new(keyword: Option<KeywordLine>, rows: Span, rows_kept: RowsKept) -> Self {
         let start = keyword.is_none().then(|| Span::new(rows.source(), rows.start(), rows.start()));
         let elsewhere = start.map(|start| Box::new(Elsewhere { start: Some(start), continued_in: Vec::new() }));

@@ -42,7 +42,7 @@ impl Error {
         Self(Kind::Json { path: path.into(), message: message.into() })
     }
 
-    /// A model of which this reads back as something else.
+    /// A model of which this part reads back differently.
     pub(crate) fn unprintable(what: impl Into<String>) -> Self {
         Self(Kind::Unprintable { what: what.into() })
     }

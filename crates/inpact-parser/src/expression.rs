@@ -60,7 +60,7 @@ pub const MAX_TEXT: usize = 1024;
 /// The most bytes of all text values of a deck together.
 pub const MAX_TEXT_IN_ALL: usize = 16 << 20;
 
-/// The most arguments of a call; Python 2 has the same limit.
+/// The maximum number of arguments of a call; Python 2 has the same limit.
 pub(crate) const MAX_ARGUMENTS: usize = 255;
 
 /// A problem without its place.
@@ -82,10 +82,10 @@ impl Complaint {
     }
 }
 
-/// A piece of source text in backticks, cut when it is long.
+/// A piece of source text in backticks, truncated when it is long.
 fn quoted(text: &[u8]) -> String {
     const SHOWN: usize = 40;
-    // A character has at most four bytes, so this is enough for the characters that are shown and one more.
+    // A character has at most four bytes, so this suffices for the shown characters and one more.
     let beginning = String::from_utf8_lossy(&text[..text.len().min(4 * (SHOWN + 1))]);
     let mut shown: String = beginning.chars().take(SHOWN).collect();
     if shown.len() < text.len() && beginning.chars().nth(SHOWN).is_some() {

@@ -24,7 +24,7 @@ use crate::grammar::{Definition, Grammar, KeywordId};
 use crate::span::SourceId;
 use inpact_diagnostics::{Edit, apply};
 
-/// The most characters of a keyword or data line (S-06).
+/// The maximum number of characters of a keyword or data line (S-06).
 const LINE_CHARACTERS: usize = 256;
 
 /// The blocks that are formatted besides *SURFACE INTERACTION and its sub-options.
@@ -59,17 +59,17 @@ pub fn format_edits(deck: &Deck, source: SourceId, grammar: &Grammar) -> Vec<Edi
     edits
 }
 
-/// The place in a deck, as far as it decides which blocks are formatted.
+/// The context in a deck that decides which blocks are formatted.
 struct Place<'a> {
     grammar: &'a Grammar,
     /// Whether a *SURFACE INTERACTION is open.
     in_interaction: bool,
-    /// The last keyword that is no sub-option of an interaction.
+    /// The last keyword that is not a sub-option of an interaction.
     parent: Option<KeywordId>,
 }
 
 impl<'a> Place<'a> {
-    /// Goes on to a block; gives its definition when the block is one that is formatted.
+    /// Advances to a block; returns its definition when it is formatted.
     fn enter(&mut self, block: &Block) -> Option<&'a Definition> {
         let id = block.keyword_id()?;
         let keyword = self.grammar.keyword(id);

@@ -29,10 +29,10 @@ const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/keyword_files
 /// The keyword files that replace one of those for CalculiX.
 const CALCULIX_FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/calculix_files.rs"));
 
-/// Every keyword of Abaqus, one a line.
+/// Every keyword of Abaqus, one per line.
 const ABAQUS_NAMES: &str = include_str!("../grammar/names/abaqus.txt");
 
-/// Every keyword of CalculiX, one a line, without blanks.
+/// Every keyword of CalculiX, one per line, without blanks.
 const CALCULIX_NAMES: &str = include_str!("../grammar/names/calculix.txt");
 
 /// The one keyword that CalculiX compares with the blank after it: `*GAP X` is not *GAP.
@@ -72,9 +72,9 @@ pub struct Keyword {
     pub name: String,
     folded: String,
     source: Option<&'static str>,
-    /// The dialect has it; an Abaqus keyword that CalculiX lacks is kept, so that it can be named.
+    /// The dialect has it; an Abaqus keyword that CalculiX lacks is kept for messages.
     is_listed: bool,
-    /// The definition is that of another dialect, whose parameters may differ.
+    /// The definition is from another dialect, whose parameters may differ.
     is_borrowed: bool,
     /// Whose language it is.
     dialect: Dialect,
@@ -98,7 +98,7 @@ impl Grammar {
         let further = if dialect == Dialect::Calculix { calculix_names.as_slice() } else { &[] };
         let further = further.iter().map(|name| Keyword::new(name, None));
         let mut keywords: Vec<Keyword> = defined.chain(listed).chain(further).collect();
-        // Of two with one name the first is kept: the sort is stable, and those that replace come first.
+        // Of two with the same name the first is kept: the sort is stable, and replacements come first.
         keywords.sort_by(|a, b| a.folded.cmp(&b.folded));
         keywords.dedup_by(|a, b| a.folded == b.folded);
         if dialect == Dialect::Calculix {
@@ -146,7 +146,7 @@ impl Grammar {
         lookup::decide(folded.as_bytes(), candidates)
     }
 
-    /// CalculiX compares as many letters as its own name has: `*GAP CONDUCTANCES` is *GAP CONDUCTANCE (CX-03).
+    /// CalculiX compares only the letters of its own name: `*GAP CONDUCTANCES` is *GAP CONDUCTANCE (CX-03).
     fn name_before(&self, folded: &[u8]) -> Lookup<KeywordId> {
         let shorter = (1..folded.len()).rev().map(|length| &folded[..length]).filter(|name| *name != ONLY_WHOLE);
         let mut found = shorter.filter_map(|name| self.exact.get(name).copied().filter(|id| self.has(*id)));
@@ -222,7 +222,7 @@ impl Keyword {
 
     /// The definition; `None` when only the name is known.
     pub fn definition(&self) -> Option<&Definition> {
-        // A test loads every definition that is compiled in, so none is lost here.
+        // A test loads every compiled-in definition, so errors cannot occur here.
         let parse = || {
             let mut definition = Definition::parse(self.source?).ok()?;
             if self.is_borrowed {

@@ -44,7 +44,7 @@ pub fn view_of(text: &str) -> Result<View, Error> {
     }
 }
 
-/// Parses a document; the path of what is wrong with it is in the error.
+/// Parses a document; the error has the path of the fault.
 fn parse<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
     let mut deserializer = serde_json::Deserializer::from_str(text);
     let document = serde_path_to_error::deserialize(&mut deserializer).map_err(|error| {
@@ -55,7 +55,7 @@ fn parse<T: DeserializeOwned>(text: &str) -> Result<T, Error> {
     Ok(document)
 }
 
-/// The message of a wrong type, with the name of JSON where serde names a type of Rust.
+/// The message of a wrong type, with JSON type names in place of serde's Rust type names.
 fn json_message(message: &str) -> String {
     let Some((found, (expected, place))) =
         message.rsplit_once(", expected ").and_then(|(found, rest)| Some((found, rest.split_once(" at line ")?)))
@@ -80,7 +80,7 @@ fn json_message(message: &str) -> String {
     format!("{found}, expected {expected} at line {place}")
 }
 
-/// Reads a field that must be there, though it may be `null`.
+/// Reads a required field, which may be `null`.
 pub(crate) fn required<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<T>, D::Error> {
     Option::deserialize(deserializer)
 }
@@ -110,7 +110,7 @@ mod tests {
         }
     }
 
-    /// No message names a type of this program, whatever is in the place of a value.
+    /// No message names a Rust type, whatever value is given.
     #[test]
     fn no_message_names_a_type_of_rust() {
         let grammar = Grammar::builtin();

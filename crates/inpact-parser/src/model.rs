@@ -256,9 +256,9 @@ pub enum SetAsideReason {
     Misplaced,
     /// A later definition of the same name or kind replaced it; the span is that of the later one.
     ReplacedBy(Span),
-    /// An earlier definition of the same name counts, as CalculiX has it (CX-11).
+    /// An earlier definition of the same name applies, as in CalculiX (CX-11).
     Shadowed {
-        /// The definition that counts.
+        /// The definition in force.
         first: Span,
     },
 }

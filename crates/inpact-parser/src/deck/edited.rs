@@ -11,7 +11,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
 
-/// About how many bytes a piece has; a line is never cut.
+/// The approximate size of a piece; lines are never split.
 const PIECE: usize = 32 * 1024;
 
 /// Text that can be changed, and rescanned at the cost of its interpreted blocks.
@@ -29,19 +29,19 @@ pub struct EditedText {
 #[derive(Debug, Default)]
 pub struct TextInParts {
     pieces: Vec<Arc<Piece>>,
-    /// The end of what has come, which may go on.
+    /// The end of the received bytes, which may continue.
     rest: Vec<u8>,
-    /// How long that was when it was cut last; a line that is longer than all is not looked through at every byte.
+    /// Its length at the last split, so that a very long line is not rescanned for every byte.
     left_over: usize,
 }
 
-/// Whole lines, and what is known of them.
+/// Whole lines, and their survey.
 #[derive(Debug)]
 struct Piece {
     bytes: Box<[u8]>,
     line_ends: u64,
     survey: Survey,
-    /// Where its lines begin; found out when somebody asks for a place in it.
+    /// The starts of its lines, computed lazily.
     line_starts: OnceLock<Box<[usize]>>,
 }
 
@@ -58,7 +58,7 @@ impl Piece {
         Self { bytes: bytes.into(), line_ends, survey: Survey::of(bytes), line_starts: OnceLock::new() }
     }
 
-    /// Where its lines begin; after the last line end one more, where another piece goes on.
+    /// The starts of its lines, plus the position after the last line end, where the next piece continues.
     fn line_starts(&self) -> &[usize] {
         self.line_starts.get_or_init(|| {
             let after = ends_line(&self.bytes).then_some(self.bytes.len());
@@ -79,7 +79,7 @@ impl EditedText {
         text
     }
 
-    /// Finds out where the pieces begin, from one of them on.
+    /// Computes the starts of the pieces, from one of them on.
     fn place_pieces(&mut self, first: usize) {
         self.starts.truncate(first);
         let mut next = match first.checked_sub(1) {
@@ -112,7 +112,7 @@ impl EditedText {
         let (start, end) = (range.start.min(self.length), range.end.clamp(range.start.min(self.length), self.length));
         let (mut first, mut first_start) = self.piece_at(start);
         if let Some(before) = first.checked_sub(1) {
-            // A CR at the end of the piece before may find its LF now.
+            // A CR at the end of the previous piece may be joined with its LF now.
             first = before;
             first_start -= self.pieces[before].bytes.len() as u64;
         }
@@ -125,7 +125,7 @@ impl EditedText {
         }
         let index = |offset: u64| usize::try_from(offset - first_start).unwrap_or(usize::MAX).min(joined.len());
         joined.splice(index(start)..index(end), with.iter().copied());
-        // Pieces that follow begin with a line of their own, and a CR here is not parted from an LF there.
+        // Following pieces begin with a new line, and a CR here is not separated from an LF there.
         while after < self.pieces.len() && !matches!(joined.last(), None | Some(b'\n')) {
             joined.extend_from_slice(&self.pieces[after].bytes);
             after += 1;
@@ -205,7 +205,7 @@ impl EditedText {
         (self.pieces[..before].iter().map(|piece| piece.bytes.len() as u64).sum(), after)
     }
 
-    /// The piece that a byte lies in and where that begins; after the last byte the last piece, where it does not end a line.
+    /// The piece of a byte and its start; after the last byte the last piece, where it does not end a line.
     fn piece_at(&self, offset: u64) -> (usize, u64) {
         let index = self.starts.partition_point(|start| start.offset <= offset).saturating_sub(1);
         match (self.pieces.get(index), self.starts.get(index)) {
@@ -260,7 +260,7 @@ impl Start {
     }
 }
 
-/// Cuts bytes into pieces of about that length, after line ends.
+/// Splits bytes into pieces of about that length, after line ends.
 fn cut(bytes: &[u8], length: usize) -> Vec<Arc<Piece>> {
     let mut pieces = Vec::new();
     let mut rest = bytes;

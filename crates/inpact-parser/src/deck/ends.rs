@@ -19,13 +19,13 @@ const LEAST_ROWS: usize = 16;
 /// The rows at both ends of a table whose lines are kept: the first and the last, and those that an excerpt shows beside them.
 const ROWS_KEPT: usize = 3;
 
-/// The abscissae of a group for which room is made at once.
+/// The initial capacity for abscissae of a group.
 const MANY_ROWS: usize = 128;
 
-/// The first and the last row of each group of a table, and where its other rows are.
+/// The first and the last row of each group of a table, and the range of its other rows.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct RowEnds {
-    /// The rows of the block that they are of.
+    /// The rows of their block.
     pub(super) block: Span,
     /// The number of cells of a row.
     pub(crate) width: usize,
@@ -35,22 +35,22 @@ pub(crate) struct RowEnds {
     pub(crate) places: Box<[Span]>,
 }
 
-/// The rows of a block, taken apart.
+/// The rows of a block, split into kept and dropped ones.
 #[derive(Debug, PartialEq)]
 pub(super) struct Thinned {
-    /// The bytes of the rows that are lost: none of those that look like them are to be used.
+    /// The bytes of the dropped rows, which must not be used.
     pub(super) lost: Range<usize>,
-    /// Those whose text goes; the rest of the lost rows is kept for excerpts of lines beside it.
+    /// Those whose text is dropped; the rest of the dropped rows is kept for excerpts of neighbouring lines.
     pub(super) dropped: Range<usize>,
     pub(super) ends: RowEnds,
 }
 
-/// The way of the values along the first abscissa that is no subject of any rule.
+/// The trend of the values along the first abscissa that triggers no rule.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Trend {
-    /// They never rise: a conductance against clearance.
+    /// Non-increasing: a conductance against clearance.
     Falling,
-    /// They never fall: a conductance against pressure.
+    /// Non-decreasing: a conductance against pressure.
     Rising,
     /// Any.
     Any,
@@ -66,7 +66,7 @@ impl Trend {
     }
 }
 
-/// The trend of the table of an option in order; `None` for rows that are no such table.
+/// The required trend of the table of an option; `None` for other rows.
 pub(super) fn trend_of(definition: &Definition, keyword: &KeywordLine) -> Option<Trend> {
     if definition.rows() != RowShape::Table {
         return None;
@@ -82,7 +82,7 @@ pub(super) fn trend_of(definition: &Definition, keyword: &KeywordLine) -> Option
     }
 }
 
-/// Takes the rows of a block apart, which begin at `start` of a file, if they are a table in order.
+/// Splits the rows of a block, which begin at `start` of a file, if they are a well-ordered table.
 pub(super) fn thin(text: &[u8], start: u64, source: SourceId, trend: Trend) -> Option<Thinned> {
     let mut table = Groups::new(trend);
     // The lines of the first rows, and of the last.
@@ -152,7 +152,7 @@ impl Groups {
         }
     }
 
-    /// Takes the next row; `None` if the table is not in order.
+    /// Adds the next row; `None` if the table is not in order.
     fn push(&mut self, row: &[f64], place: Range<usize>) -> Option<()> {
         let [value, abscissa, outer @ ..] = row else { return None };
         if self.rows == 0 {
@@ -171,7 +171,7 @@ impl Groups {
                 return None;
             }
         } else {
-            // The slowest variable that differs must grow (T-09).
+            // The slowest variable that differs must increase (T-09).
             let differing = (2..self.width).rev().find(|column| row[*column] != self.before[*column])?;
             if row[differing] < self.before[differing] {
                 return None;
@@ -283,7 +283,7 @@ mod tests {
             // Negative (P001), rises (P005).
             (29, "11.5", "-1"),
             (7, "13.5", "15."),
-            // No plain rows: other items, surplus ones, a comma at the end, long numbers, blank lines, other line ends.
+            // Not plain rows: other items, surplus ones, a comma at the end, long numbers, blank lines, other line ends.
             (5, "15.5", "<a>"),
             (5, "15.5", "nan"),
             (5, "15.5", ""),

@@ -22,9 +22,9 @@ pub fn most_levels(dialect: Dialect) -> usize {
 /// The maximum number of files that a deck may include in total: a bound against files that include one another repeatedly.
 pub const MOST_FILES: usize = 200_000;
 
-/// The most bytes of files that are read again, besides sixteen times what is read for the first time.
+/// The maximum number of bytes of files that are read again, in addition to sixteen times the bytes read for the first time.
 ///
-/// Files of a few kilobytes that include one another's neighbours a hundred times on each of five levels would come to
+/// Files of a few kilobytes that include the next level a hundred times on each of five levels would amount to
 /// terabytes; a deck in which a mesh is included for each of its parts stays below.
 const MOST_BYTES_AGAIN: u64 = 16 << 20;
 
@@ -50,7 +50,7 @@ pub enum IncludeOutcome {
     Outside(String),
     /// It lies too many levels deep ([`most_levels`]).
     TooDeep,
-    /// So many files are included already ([`MOST_FILES`]) that nobody can mean them all.
+    /// The limit of included files is reached ([`MOST_FILES`]).
     TooMany,
     /// It is being read already: the files include one another.
     Cycle,
@@ -65,7 +65,7 @@ pub trait IncludedFiles {
     /// The identity of the deck among files; `None` when it is not a file.
     fn deck(&self) -> Option<PathBuf>;
 
-    /// The folder that must not be left and does not contain the file; checked before the file is looked for.
+    /// The root folder, if it does not contain the file; checked before the file is searched.
     fn outside(&mut self, _name: &str, _from: &str) -> Option<String> {
         None
     }
@@ -75,10 +75,10 @@ pub trait IncludedFiles {
         Excerpts::Shown
     }
 
-    /// Finds the file that is written as `name` in the source called `from`.
+    /// Finds the file written as `name` in the source called `from`.
     ///
     /// # Errors
-    /// The reason why there is none, for users.
+    /// The reason why it was not found, for users.
     fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String>;
 
     /// Pushes the bytes of a file that was found.
@@ -181,9 +181,9 @@ impl Assembly<'_> {
 
     fn include(&mut self, keyword: &KeywordLine) -> Include {
         let name = match self.options.grammar.dialect() {
-            // FILE is taken for INPUT in decks that ran all the same.
+            // FILE is accepted for INPUT: decks with it run.
             Dialect::Abaqus => self.value_of(keyword, "INPUT").or_else(|| self.value_of(keyword, "FILE")),
-            // For CalculiX all that follows the first `=` is the name, commas included, unless it is quoted (CX-06).
+            // For CalculiX everything after the first `=` is the name, commas included, unless it is quoted (CX-06).
             Dialect::Calculix => {
                 let end = keyword.visible_span(&self.deck).end();
                 let value = keyword.parameters().find_map(|parameter| parameter.value);
@@ -209,7 +209,7 @@ impl Assembly<'_> {
         let written = self.deck.shown(name);
         let without_blanks = |text: &str| text.split_ascii_whitespace().collect::<String>();
         let quoted = written.strip_prefix('"');
-        // Blanks carry no meaning outside quotes (S-22), for CalculiX inside them neither, and nothing behind the closing quote (CX-06).
+        // Blanks are ignored outside quotes (S-22), for CalculiX also inside, and text after the closing quote is ignored (CX-06).
         let written = match (self.options.grammar.dialect(), quoted) {
             (Dialect::Calculix, Some(rest)) => without_blanks(rest.split('"').next().unwrap_or_default()),
             (Dialect::Abaqus, Some(rest)) if rest.ends_with('"') => rest[..rest.len() - 1].to_owned(),

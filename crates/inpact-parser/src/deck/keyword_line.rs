@@ -37,7 +37,7 @@ pub(super) struct ParameterPieces {
 
 /// Parses a logical keyword line: the physical line of the asterisk and the lines that continue it.
 ///
-/// Never fails: what cannot be read stays inside a name or a value.
+/// Never fails: malformed text stays inside a name or a value.
 pub(super) fn parse(text: &[u8]) -> KeywordPieces {
     parse_items(text, word)
 }
@@ -75,7 +75,7 @@ pub(super) fn ends_in_comma(text: &[u8]) -> bool {
     text.trim_ascii_end().last() == Some(&b',')
 }
 
-/// Replaces line ends and comment lines between the physical lines by blanks, so that offsets stay what they were.
+/// Replaces line ends and comment lines between the physical lines by blanks, so that offsets are unchanged.
 fn join_physical_lines(text: &[u8]) -> std::borrow::Cow<'_, [u8]> {
     let first_end = without_line_end(&text[..super::lines::next_line(text, 0)]).len();
     if text[first_end..].trim_ascii().is_empty() {

@@ -9,7 +9,7 @@ use memchr::{memchr, memchr_iter, memchr2};
 pub enum LineKind {
     /// `*` in columns 1 and 2 (S-04).
     Comment,
-    /// `**` after blanks: formally a keyword line, meant as a comment (S-04); taken as a comment.
+    /// `**` after blanks: formally a keyword line, intended as a comment (S-04); treated as a comment.
     IndentedComment,
     /// The first character that is not a blank is `*` (S-05).
     Keyword,
@@ -78,7 +78,7 @@ pub fn count_line_ends(bytes: &[u8]) -> u64 {
 fn lone_carriage_returns(bytes: &[u8]) -> usize {
     let Some(first) = memchr(b'\r', bytes) else { return 0 };
     let rest = &bytes[first..];
-    // Written without a branch so that it is vectorised: a file with CR LF ends has a CR in every line.
+    // Branchless so that it is vectorised: a file with CR LF ends has a CR in every line.
     let is_lone = |(first, second): (&u8, &u8)| usize::from(*first == b'\r') & usize::from(*second != b'\n');
     let inner: usize = rest.iter().zip(&rest[1..]).map(is_lone).sum();
     inner + usize::from(rest.last() == Some(&b'\r'))
@@ -106,7 +106,7 @@ pub fn find_keyword_line(bytes: &[u8], from: usize, mut comment: impl FnMut(usiz
     None
 }
 
-/// The start of the line of `at` when only blanks are between it and `at`.
+/// The start of the line of `at` if there are only blanks before `at`.
 fn line_start_before(bytes: &[u8], from: usize, at: usize) -> Option<usize> {
     let mut start = at;
     while start > from {

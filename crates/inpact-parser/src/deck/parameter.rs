@@ -8,7 +8,7 @@ use crate::span::Span;
 use std::num::{NonZeroU16, NonZeroU32};
 use std::ops::Range;
 
-/// The most bytes of a keyword line with the lines that continue it, if nothing else is said: what follows is read as rows.
+/// The default limit of bytes of a keyword line with its continuation lines: the rest is read as rows.
 pub(super) const LONGEST_KEYWORD_LINE: u32 = 1 << 30;
 
 /// `NAME` or `NAME=VALUE` on a keyword line (S-17).
@@ -44,11 +44,11 @@ impl Parameter {
 pub enum Resolved<T> {
     /// The name in full.
     Exact(T),
-    /// The beginning of one name and of no other.
+    /// A unique prefix of one name.
     Abbreviated(T),
-    /// The beginning of several names.
+    /// A prefix of several names.
     Ambiguous,
-    /// The beginning of none.
+    /// A prefix of no name.
     Unknown,
 }
 
@@ -61,7 +61,7 @@ impl<T> Resolved<T> {
         }
     }
 
-    /// The thing found in a dialect: CalculiX knows no abbreviations, and what is one for Abaqus is another name there, or none.
+    /// The match in a dialect: CalculiX has no abbreviations, so an Abaqus abbreviation is another name there, or none.
     pub(crate) fn found_in(self, dialect: Dialect) -> Option<T> {
         match (self, dialect) {
             (Self::Exact(found), _) | (Self::Abbreviated(found), Dialect::Abaqus) => Some(found),
@@ -81,7 +81,7 @@ impl<T> From<Lookup<T>> for Resolved<T> {
     }
 }
 
-/// A parameter as it is kept.
+/// The stored form of a parameter.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PlacedParameter {
     name: Place,
@@ -124,7 +124,7 @@ impl Place {
     }
 }
 
-/// The parameters of a keyword line: none or one on nearly every line, which are kept in place.
+/// The parameters of a keyword line: none or one on nearly every line, stored inline.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum AfterName {
     Nothing,
@@ -132,7 +132,7 @@ pub(super) enum AfterName {
     More(Box<More>),
 }
 
-/// Parameters and faults of a line that has more than one of either.
+/// Parameters and faults of a line with more than one of either.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct More {
     parameters: Box<[PlacedParameter]>,
@@ -147,7 +147,7 @@ pub(super) struct More {
 pub(super) struct LastComma {
     /// Its offset in the line.
     pub(super) at: NonZeroU32,
-    /// The most bytes of a keyword line, where the next one would have made it longer.
+    /// The limit of bytes of a keyword line, where the next one would have exceeded it.
     pub(super) most: Option<NonZeroU32>,
 }
 
@@ -272,7 +272,7 @@ mod tests {
         assert!(parameters.iter().all(|found| matches!(found.resolved, Resolved::Exact(_))));
     }
 
-    /// One parameter is kept in another form than several, and than one far behind.
+    /// A single parameter has another form than several, and than one at a large offset.
     #[test]
     fn a_parameter_comes_back_from_anywhere() {
         for blanks in [0, 65_510, 65_520, 65_535, 65_536, 70_000] {

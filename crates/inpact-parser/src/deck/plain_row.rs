@@ -18,7 +18,7 @@ pub(crate) struct PlainRow {
     pub(super) next: usize,
 }
 
-/// Reads the row on the line that begins at `start` into `cells`; `None` if there is anything but numbers between commas and blanks.
+/// Reads the row on the line that begins at `start` into `cells`; `None` if there is anything but numbers, commas and blanks.
 pub(crate) fn plain_row(text: &[u8], start: usize, cells: &mut [f64; MOST_CELLS]) -> Option<PlainRow> {
     let mut at = after_blanks(text, start);
     let first = at;

@@ -25,7 +25,7 @@ const LINE_CHARACTERS: usize = 256;
 /// The number of bytes kept of the rows before the first keyword when only interpreted blocks are: enough to distinguish a fragment from a file that is not a deck.
 const LEADING_ROWS_KEPT: u64 = 64 * 1024;
 
-/// The most rows of one block that are noted because they begin with the name of a keyword.
+/// The maximum number of notes per block for rows that begin with the name of a keyword.
 const MOST_LIKE_KEYWORDS: usize = 100;
 
 /// The rows that keep their text.
@@ -33,12 +33,12 @@ const MOST_LIKE_KEYWORDS: usize = 100;
 pub enum Keep {
     /// All of them: the deck can be printed.
     Everything,
-    /// Those of keywords whose rows somebody interprets: the deck can be checked and evaluated, in memory that follows the interpreted blocks and not the file.
+    /// Those of keywords whose rows are interpreted: the deck can be checked and evaluated, in memory that grows with the interpreted blocks and not with the file.
     #[default]
     Interpreted,
-    /// Those, without the rows of large tables in order: of these the model has the first and the last row of each group alone, in which rules find what they find in all.
+    /// Those, except the rows of large well-ordered tables: of these the model has only the first and the last row of each group, which suffice for all rules.
     ///
-    /// The deck can be checked and nothing else, and only while [`Deck::lacks_rows`] says no.
+    /// The deck can only be checked, and only while [`Deck::lacks_rows`] is false.
     Ends,
 }
 
@@ -54,7 +54,7 @@ pub struct ScanOptions<'grammar> {
 /// The part kept of the rows before the first keyword of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum LeadingRows {
-    /// All of them: they go on with a block whose rows are kept.
+    /// All of them: they continue a block whose rows are kept.
     All,
     /// As much as distinguishes a fragment from a file that is not a deck.
     Some,
@@ -83,7 +83,7 @@ pub struct Scanner<'grammar> {
     /// Offset and line number of the next byte to be processed.
     offset: u64,
     line: u64,
-    /// A keyword line that ends in a comma and may go on.
+    /// A keyword line that ends in a comma and may continue.
     open_keyword: Option<OpenKeyword>,
     block: OpenBlock,
     longest_keyword_line: u32,
@@ -97,9 +97,9 @@ struct OpenKeyword {
     id: Option<KeywordId>,
     /// The physical lines taken so far, comments between them included.
     text: Vec<u8>,
-    /// The length of `text` that belongs to the keyword line for sure: comments at its end do not.
+    /// The length of `text` that certainly belongs to the keyword line: comments at its end do not.
     accepted: usize,
-    /// Lines after the comma at its end; the file that includes this one may go on with flags.
+    /// Lines after the comma at its end; the including file may continue with flags.
     after_comma: AfterComma,
 }
 
@@ -107,7 +107,7 @@ struct OpenKeyword {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Mark {
     Note(LineNoteKind),
-    /// A comment that is meant for inpact.
+    /// A comment addressed to inpact.
     Directive,
 }
 
@@ -121,11 +121,11 @@ struct OpenBlock {
     likes_of_keywords: usize,
     /// The rows are free text, in which any byte may occur (S-70).
     free_text: bool,
-    /// The rows may be a table in order, of which not all is to be kept.
+    /// The rows may be a well-ordered table, which is not kept completely.
     may_be_thinned: Option<MayBeThinned>,
 }
 
-/// A table that is kept whole if anything is noted of its lines.
+/// A table that is kept whole if there is any note on its lines.
 #[derive(Debug)]
 struct MayBeThinned {
     trend: Trend,
@@ -137,7 +137,7 @@ struct MayBeThinned {
 enum KeepsRows {
     All,
     None,
-    /// All until so many bytes of the file have gone by.
+    /// All rows up to this number of bytes of the file.
     UpTo(u64),
 }
 
@@ -206,10 +206,10 @@ impl<'grammar> Scanner<'grammar> {
         self.pending.extend_from_slice(&bytes[complete..]);
     }
 
-    /// Takes whole lines of which it is known what they hold; rows that are not kept are skipped.
+    /// Pushes whole lines with a known survey; rows that are not kept are skipped.
     pub(super) fn push_surveyed(&mut self, bytes: &[u8], survey: Survey) {
         let is_between_lines = self.pending.is_empty() && self.open_keyword.is_none();
-        // A CR at the very end may be half of a CR LF, and a byte order mark is no part of a row.
+        // A CR at the very end may be half of a CR LF, and a byte order mark is not part of a row.
         let is_rows = !survey.has_asterisk && bytes.ends_with(b"\n") && self.offset != 0;
         if is_between_lines && is_rows {
             self.rows(bytes, &[], survey);
@@ -254,7 +254,7 @@ impl<'grammar> Scanner<'grammar> {
         if at == 0 && self.open_keyword.is_none() {
             let survey = Survey::of(bytes);
             if !survey.has_asterisk {
-                // Nothing but rows, of a mesh most likely: nobody has to look closer.
+                // Only rows, probably of a mesh: no closer inspection is needed.
                 return self.rows(bytes, &[], survey);
             }
         }
@@ -280,7 +280,7 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// Takes rows and comments of the open block; `marked` are the starts of comments that are wanted.
+    /// Adds rows and comments of the open block; `marked` are the starts of the requested comments.
     fn rows(&mut self, bytes: &[u8], marked: &[(usize, Mark)], survey: Survey) {
         if bytes.is_empty() {
             return;
@@ -301,7 +301,7 @@ impl<'grammar> Scanner<'grammar> {
         self.line += if survey.has_carriage_return { count_line_ends(bytes) } else { survey.line_feeds };
     }
 
-    /// Finds the rows that begin with the full name of a keyword: nobody sees them later.
+    /// Finds the rows that begin with the full name of a keyword, as their text is not kept.
     fn find_likes_of_keywords(&mut self, bytes: &[u8], found: &mut Vec<(Range<usize>, Mark)>) {
         for line in lines(bytes) {
             if MOST_LIKE_KEYWORDS <= self.block.likes_of_keywords {
@@ -323,7 +323,7 @@ impl<'grammar> Scanner<'grammar> {
         matches!(self.options.grammar.keyword_named(name), Lookup::Exact(_))
     }
 
-    /// Takes down lines of `bytes`, which begin at the current offset.
+    /// Records notes on lines of `bytes`, which begin at the current offset.
     fn mark(&mut self, mut lines: Vec<(Range<usize>, Mark)>, bytes: &[u8]) {
         lines.sort_by_key(|(line, _)| line.start);
         for (line, mark) in lines {
@@ -344,7 +344,7 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// Notes a line; a second one of most kinds in one block is only counted. Gives whether it has a note of its own.
+    /// Notes a line; a second one of most kinds in one block is only counted. Returns whether it has a separate note.
     fn note(&mut self, kind: LineNoteKind, span: Span) -> bool {
         let block_start = self.block.keyword.as_ref().map_or(self.block.rows_start, |keyword| keyword.span.start());
         let of_this_block = |note: &&mut LineNote| note.span.start() >= block_start;
@@ -385,7 +385,7 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// Looks at the line at `at` after a keyword line that ends in a comma; gives where to go on.
+    /// Handles the line at `at` after a keyword line that ends in a comma; returns where to continue.
     fn continue_keyword(&mut self, bytes: &[u8], at: usize) -> usize {
         let end = next_line(bytes, at);
         let line = &bytes[at..end];
@@ -422,7 +422,7 @@ impl<'grammar> Scanner<'grammar> {
         let text = &open.text[..open.accepted];
         let keyword = resolve(text, (self.id, open.start), open.after_comma, self.options.grammar);
         let definition = keyword.id().and_then(|id| self.options.grammar.keyword(id).definition());
-        // CalculiX has a limit of rows (T016), and a reading of its own of numbers.
+        // CalculiX has a limit of rows (T016), and its own syntax of numbers.
         let thins = self.options.keep == Keep::Ends && self.options.grammar.dialect() == Dialect::Abaqus;
         let trend = definition.filter(|_| thins).and_then(|definition| trend_of(definition, &keyword));
         let noted = self.noted();
@@ -448,7 +448,7 @@ impl<'grammar> Scanner<'grammar> {
         }
     }
 
-    /// Drops the rows of a table in order but those at its ends.
+    /// Drops the rows of a well-ordered table except those at its ends.
     fn thin(&mut self, rows: Span) -> RowsKept {
         let Some(MayBeThinned { trend, noted }) = self.block.may_be_thinned.take() else { return RowsKept::All };
         let text = self.source.kept_from(rows.start()).filter(|text| text.len() as u64 == rows.len());
@@ -503,7 +503,7 @@ fn end_of_pending_line(pending: &[u8], bytes: &[u8]) -> Option<usize> {
         return bytes.first().map(|first| usize::from(*first == b'\n'));
     }
     let end = next_line(bytes, 0);
-    // Without an end, or with a CR as the very last byte, nobody knows yet whether an LF follows.
+    // Without an end, or with a CR as the very last byte, it is not known yet whether an LF follows.
     let ended = without_line_end(&bytes[..end]).len() < end && !(end == bytes.len() && bytes[end - 1] == b'\r');
     ended.then_some(end)
 }
@@ -514,7 +514,7 @@ fn end_of_last_line(bytes: &[u8]) -> usize {
     memchr::memrchr2(b'\n', b'\r', certain).map_or(0, |last| last + 1)
 }
 
-/// Rows are kept when somebody reads them: those of sub-options, and of keywords whose rows the grammar describes.
+/// Rows are kept when they are interpreted: those of sub-options, and of keywords whose rows the grammar describes.
 fn keeps_rows(definition: Option<&Definition>, keep: Keep) -> KeepsRows {
     let interpreted = definition
         .is_some_and(|definition| definition.rows() != RowShape::Uninterpreted || !definition.parents.is_empty());

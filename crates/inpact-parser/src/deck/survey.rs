@@ -12,7 +12,7 @@ const BLOCK: usize = 2 * LANES;
 /// The number of blocks in which a lane can count line ends before its eight bits are full.
 const BLOCKS_A_COUNT: usize = 255 / 2;
 
-/// Properties of a stretch of bytes.
+/// Properties of a range of bytes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Survey {
     /// The number of LFs.
@@ -34,7 +34,7 @@ impl Survey {
     }
 }
 
-// Inlined into the closure that is compiled for each instruction set; a call would leave it at the least of them.
+// Inlined into the closure that is compiled for each instruction set; a call would be compiled for the baseline only.
 #[expect(clippy::inline_always, reason = "the instruction set is chosen around the call")]
 #[inline(always)]
 fn survey(bytes: &[u8]) -> Survey {
@@ -62,7 +62,7 @@ fn survey(bytes: &[u8]) -> Survey {
                 counts[lane] += ends[lane];
                 has_end |= ends[lane];
             }
-            // Two blocks in a row with a line end each leave room for 254 bytes between them.
+            // Two consecutive blocks with a line end each may have 254 bytes between them.
             may_have_long_line |= has_end == 0;
         }
         line_feeds += counts.iter().map(|count| u64::from(*count)).sum::<u64>();

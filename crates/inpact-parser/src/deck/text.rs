@@ -18,19 +18,19 @@ pub struct Source {
     pub(super) included_by: Option<Span>,
     pub(super) excerpts: Excerpts,
     stretches: Vec<Stretch>,
-    /// The kept bytes, stretch after stretch.
+    /// The kept bytes, range by range.
     bytes: Vec<u8>,
     /// The tables of which only ends of groups were kept, in the order of the file.
     ends: Vec<RowEnds>,
     looks: Looks,
 }
 
-/// Traces of looks into the bytes.
+/// Records of accesses to the bytes.
 #[derive(Debug, Default)]
 struct Looks {
-    /// Somebody has looked for rows that are lost.
+    /// Dropped rows were accessed.
     have_missed: AtomicBool,
-    /// The stretch that was looked into last: the next look is mostly there or in the one after it.
+    /// The range of the last access: the next one is mostly there or in the following range.
     last: AtomicUsize,
 }
 
@@ -42,7 +42,7 @@ impl Clone for Looks {
 }
 
 impl PartialEq for Looks {
-    /// A source is no other one for having been looked into.
+    /// Access records do not affect equality.
     fn eq(&self, _: &Self) -> bool {
         true
     }
@@ -54,7 +54,7 @@ pub enum Excerpts {
     /// They may.
     #[default]
     Shown,
-    /// They may not: the deck names a file that is none of its own, and its lines are nobody's business.
+    /// They may not: the deck names a file outside of its folder.
     Withheld,
 }
 
@@ -67,7 +67,7 @@ struct Stretch {
     kept_at: usize,
     /// Number of the line that `start` lies in, from 1; `start` is the first byte of it.
     first_line: u64,
-    /// The bytes at its beginning and at its end that are parts of lost rows: they are for excerpts of the lines beside them.
+    /// The bytes at its beginning and at its end that are parts of dropped rows, kept for excerpts of neighbouring lines.
     lost_before: u32,
     lost_after: u32,
 }
@@ -105,7 +105,7 @@ impl Source {
 
     /// Keeps `bytes`, which begin at `start` in the file, at the beginning of line `first_line`.
     ///
-    /// Stretches come in ascending order; what was kept already is not kept twice.
+    /// Ranges come in ascending order; bytes already kept are not kept twice.
     pub(super) fn keep(&mut self, start: u64, first_line: u64, bytes: &[u8]) {
         let end_of_last = self.end_of_last_stretch();
         if bytes.is_empty() || end_of_last.is_some_and(|end| start < end) {
@@ -123,14 +123,14 @@ impl Source {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// The bytes from `start` on, where they are kept up to the end of what was scanned.
+    /// The bytes from `start` on, if they are kept up to the end of the scanned part.
     pub(super) fn kept_from(&self, start: u64) -> Option<&[u8]> {
         let last = self.stretches.last()?;
         let at = last.kept_at + usize::try_from(start.checked_sub(last.start)?).ok()?;
         self.bytes.get(at..)
     }
 
-    /// Drops rows of a table from what [`kept_from`](Self::kept_from) gives; `next_line` is the number of the line after all.
+    /// Drops rows of a table from the bytes of [`kept_from`](Self::kept_from); `next_line` is the number of the line after all.
     pub(super) fn thin(&mut self, Thinned { lost, dropped, ends }: Thinned, next_line: u64) {
         let as_u32 = |length: usize| u32::try_from(length).unwrap_or(u32::MAX);
         let (start, end) = (ends.block.start(), ends.block.end());
@@ -158,12 +158,12 @@ impl Source {
         Some(&self.ends[found])
     }
 
-    /// Takes down that somebody needs rows that are lost.
+    /// Records an access to dropped rows.
     pub(super) fn miss(&self) {
         self.looks.have_missed.store(true, Ordering::Relaxed);
     }
 
-    /// Whether somebody has looked for rows that are lost.
+    /// Whether dropped rows were accessed.
     pub(super) fn have_missed(&self) -> bool {
         self.looks.have_missed.load(Ordering::Relaxed)
     }
@@ -174,7 +174,7 @@ impl Source {
         self.kept(range)
     }
 
-    /// Takes down a look at lost rows.
+    /// Records an access to dropped rows.
     fn look(&self, range: &Range<u64>) {
         let Some(index) = self.index_at(range.start) else { return };
         let stretch = &self.stretches[index];
@@ -186,7 +186,7 @@ impl Source {
         }
     }
 
-    /// The same as [`text`](Self::text), whatever the bytes are for.
+    /// The same as [`text`](Self::text), without recording accesses.
     fn kept(&self, range: Range<u64>) -> &[u8] {
         let Some((stretch, kept)) = self.stretch_at(range.start) else { return &[] };
         let kept_range =
@@ -201,7 +201,7 @@ impl Source {
         self.stretch_at(range.start).map_or((range.start, &[]), |(stretch, kept)| (stretch.start, kept))
     }
 
-    /// Line and column of every offset in `offsets`, which must be ascending; one sweep over the kept bytes.
+    /// Line and column of every offset in `offsets`, which must be ascending; one pass over the kept bytes.
     ///
     /// An offset in bytes that were not kept gets the line reached so far.
     pub(super) fn positions(&self, offsets: &[u64]) -> Vec<Position> {
@@ -230,7 +230,7 @@ impl Source {
         Position { line: sweep.line, column: column as u64 + 1 }
     }
 
-    /// The stretch that holds `offset`, or ends there, and its bytes.
+    /// The range that contains `offset`, or ends there, and its bytes.
     fn stretch_at(&self, offset: u64) -> Option<(&Stretch, &[u8])> {
         let index = self.index_at(offset)?;
         let stretch = &self.stretches[index];
@@ -238,7 +238,7 @@ impl Source {
         (offset - stretch.start <= kept.len() as u64).then_some((stretch, kept))
     }
 
-    /// The last stretch that begins at `offset` or before.
+    /// The last range that begins at `offset` or before.
     fn index_at(&self, offset: u64) -> Option<usize> {
         let begins = |index: usize| self.stretches.get(index).is_some_and(|stretch| stretch.start <= offset);
         let last = self.looks.last.load(Ordering::Relaxed);
@@ -251,7 +251,7 @@ impl Source {
         Some(index)
     }
 
-    /// The end of the bytes of a stretch.
+    /// The end of the bytes of a range.
     fn end_of(&self, index: usize) -> usize {
         self.stretches.get(index + 1).map_or(self.bytes.len(), |next| next.kept_at)
     }
@@ -268,7 +268,7 @@ impl Source {
     }
 }
 
-/// State of a sweep over ascending offsets.
+/// State of a pass over ascending offsets.
 struct Sweep {
     offset: u64,
     line: u64,

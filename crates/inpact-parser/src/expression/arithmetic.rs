@@ -160,7 +160,7 @@ fn division_by_zero(dividend: impl std::fmt::Display) -> Complaint {
 }
 
 fn integer_power(base: i64, exponent: i64) -> Result<Value, Complaint> {
-    // Exponents that no base but these survives.
+    // Exponents at which only these bases stay in range.
     let exponent = match base {
         0 | 1 => exponent.min(1),
         -1 => exponent % 2,
@@ -190,7 +190,7 @@ fn reals(left: f64, operator: Operator, right: f64) -> Result<Value, Complaint> 
     Err(real_too_large(&format!("{} {} {}", Value::Real(left), operator.symbol(), Value::Real(right))))
 }
 
-/// The remainder with the divisor's sign, as Python has it.
+/// The remainder with the divisor's sign, as in Python.
 fn real_remainder(left: f64, right: f64) -> f64 {
     let remainder = left % right;
     if remainder == 0.0 {

@@ -11,7 +11,7 @@ use super::value::Value;
 use super::{Complaint, MAX_NESTING, quoted};
 use std::ops::Range;
 
-/// Words that Python keeps for itself; none of them can be the name of a parameter.
+/// Reserved words of Python; none of them can be the name of a parameter.
 const RESERVED: [&str; 32] = [
     "and", "as", "assert", "break", "class", "continue", "def", "del", "elif", "else", "except", "exec", "finally",
     "for", "from", "global", "if", "import", "in", "is", "lambda", "not", "or", "pass", "print", "raise", "return",
@@ -21,9 +21,9 @@ const RESERVED: [&str; 32] = [
 /// Reasons why there is no value.
 #[derive(Debug)]
 pub(super) enum Stop {
-    /// Something is wrong here.
+    /// A problem.
     Complaint {
-        /// With this part of the text.
+        /// The part of the text.
         at: Range<usize>,
         complaint: Complaint,
     },
@@ -37,7 +37,7 @@ struct Operand {
     range: Range<usize>,
 }
 
-/// An operator or a call that waits for an operand on its right.
+/// An operator or a call pending its right operand.
 enum Pending {
     /// `+` or `-` in front, and its place.
     Sign(Operator, usize),
@@ -50,7 +50,7 @@ enum Pending {
 }
 
 impl Pending {
-    /// Its binding power: an operator on the right takes the operand away if it binds tighter.
+    /// Its binding power: an operator on the right takes the operand if it binds tighter.
     fn binding(&self) -> u8 {
         match self {
             Self::Parenthesis(_) | Self::Call { .. } => 0,
@@ -85,11 +85,11 @@ pub(super) struct Evaluator<'a> {
     pub(super) end_of_last: usize,
     pending: Vec<Pending>,
     depth: usize,
-    /// The divisions of integers so far that leave a remainder.
+    /// The divisions of integers with a remainder so far.
     pub(super) divisions: Vec<Remainder>,
 }
 
-/// A division of integers with a remainder, as places in the text.
+/// A division of integers with a remainder, as ranges in the text.
 pub(super) struct Remainder {
     pub(super) dividend: Range<usize>,
     pub(super) divisor: Range<usize>,
@@ -125,7 +125,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Goes on to the next token and gives the range of the one passed.
+    /// Advances to the next token and returns the range of the previous one.
     pub(super) fn advance(&mut self) -> Range<usize> {
         let (token, range) = self.lexer.next_token();
         self.token = token;
@@ -139,7 +139,7 @@ impl<'a> Evaluator<'a> {
             let mut operand = self.operand()?;
             loop {
                 if let Token::Operator(operator) = self.token {
-                    // A power binds to the right, so that it leaves the power on its left waiting.
+                    // A power is right-associative, so the power on its left stays pending.
                     let at_least = if operator == Operator::Power { binding(operator) + 1 } else { binding(operator) };
                     let left = self.apply_pending(operand, at_least)?;
                     self.push(Pending::Binary(left, operator))?;
@@ -190,7 +190,7 @@ impl<'a> Evaluator<'a> {
         Some(pending)
     }
 
-    /// Applies the waiting signs and operators that bind at least so tightly.
+    /// Applies the pending signs and operators that bind at least this tightly.
     fn apply_pending(&mut self, mut operand: Operand, at_least: u8) -> Result<Operand, Stop> {
         while self.pending.last().is_some_and(|pending| pending.binding() >= at_least) {
             let (range, value) = match self.pop() {
@@ -216,7 +216,7 @@ impl<'a> Evaluator<'a> {
         Ok(operand)
     }
 
-    /// The next number, text, parameter or call without arguments; whatever opens before it waits.
+    /// The next number, text, parameter or call without arguments; anything opened before it becomes pending.
     fn operand(&mut self) -> Result<Operand, Stop> {
         loop {
             let word = &self.text[self.range.clone()];
@@ -290,7 +290,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// Lets a call wait for one more argument, if it takes one.
+    /// Makes a call pending for one more argument, if it takes one.
     fn argument_follows(
         &mut self,
         function: &'static Function,
@@ -304,7 +304,7 @@ impl<'a> Evaluator<'a> {
         self.push(Pending::Call { function, arguments, start, open })
     }
 
-    /// Passes the `)` of a call and computes it.
+    /// Consumes the `)` of a call and evaluates it.
     fn call(&mut self, function: &Function, arguments: &[Value], start: usize) -> Result<Operand, Stop> {
         let range = start..self.advance().end;
         if !function.arguments.contains(&arguments.len()) {
@@ -325,7 +325,7 @@ impl<'a> Evaluator<'a> {
         }
     }
 
-    /// The complaint about the next token, which is not what it should be.
+    /// The complaint about an unexpected token.
     pub(super) fn unexpected(&self, expected: &str) -> Stop {
         let word = &self.text[self.range.clone()];
         let shown = quoted(word);

@@ -7,7 +7,7 @@ use crate::number::{NumberError, read_float};
 use std::cmp::Ordering;
 use std::ops::RangeInclusive;
 
-/// A function and what it takes.
+/// A function and its arguments.
 pub(super) struct Function {
     pub(super) name: &'static str,
     /// The range of its number of arguments.
@@ -56,7 +56,7 @@ fn number(function: &str, value: &Value) -> Result<f64, Complaint> {
 fn real(name: &str, values: &[Value], compute: fn(f64) -> f64) -> Result<Value, Complaint> {
     let argument = number(name, &values[0])?;
     let result = compute(argument);
-    // All of these are bounded where they are defined, so what is not finite is outside the domain: sqrt(-1), log(0).
+    // All of these are finite within their domain, so a non-finite result means outside of it: sqrt(-1), log(0).
     if result.is_finite() { Ok(Value::Real(result)) } else { Err(outside_domain(name, argument)) }
 }
 
@@ -71,7 +71,7 @@ fn abs(values: &[Value]) -> Result<Value, Complaint> {
     }
 }
 
-/// `log(x)`, or `log(x, base)` as a quotient of logarithms, which is how Python has it.
+/// `log(x)`, or `log(x, base)` as a quotient of logarithms, as in Python.
 fn log(values: &[Value]) -> Result<Value, Complaint> {
     let logarithm = |value: &Value| {
         let argument = number("log", value)?;

@@ -5,7 +5,7 @@
 use super::arithmetic::Operator;
 use std::ops::Range;
 
-/// A kind of word.
+/// Kinds of tokens.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Token {
     /// A letter or underscore, then letters, digits, underscores.
@@ -14,7 +14,7 @@ pub(super) enum Token {
     Integer,
     /// Digits with a point or an exponent.
     Real,
-    /// A token that begins like a number but is none: `1.d0`, `2x`, `1.2.3`.
+    /// A malformed number: `1.d0`, `2x`, `1.2.3`.
     MalformedNumber,
     /// `'…'` or `"…"`.
     Text,
@@ -42,7 +42,7 @@ pub(super) enum Token {
     End,
 }
 
-/// Cuts a logical line, which holds no comment, into tokens.
+/// Splits a logical line, without comments, into tokens.
 #[derive(Debug)]
 pub(super) struct Lexer<'text> {
     text: &'text [u8],
@@ -55,7 +55,7 @@ impl<'text> Lexer<'text> {
         Self { text, at: from }
     }
 
-    /// The next token and its place; [`Token::End`] for ever at the end.
+    /// The next token and its place; always [`Token::End`] at the end.
     pub(super) fn next_token(&mut self) -> (Token, Range<usize>) {
         self.skip_while(is_blank);
         let start = self.at;
@@ -106,7 +106,7 @@ impl<'text> Lexer<'text> {
         }
     }
 
-    /// Passes the exponent whose letter is here; `false` when no digit follows.
+    /// Consumes the exponent whose letter is here; `false` when no digit follows.
     fn skip_exponent(&mut self) -> bool {
         let digits = if matches!(self.peek(1), Some(b'+' | b'-')) { 2 } else { 1 };
         let has_digits = self.peek(digits).is_some_and(|byte| byte.is_ascii_digit());
@@ -161,7 +161,7 @@ impl<'text> Lexer<'text> {
     }
 }
 
-/// Whether a byte separates words and means nothing else.
+/// Whether a byte is white space.
 pub(super) fn is_blank(byte: u8) -> bool {
     matches!(byte, b' ' | b'\t' | b'\x0C')
 }

@@ -21,7 +21,7 @@ pub(super) fn real_literal(digits: &[u8]) -> Result<Value, Complaint> {
     finite.map(Value::Real).ok_or_else(|| real_too_large(&quoted(digits)))
 }
 
-/// A text without its quotes, with Python's escapes for backslash and quotes; a backslash before anything that is no
+/// A text without its quotes, with Python's escapes for backslash and quotes; a backslash before anything that is not an
 /// escape is two characters.
 pub(super) fn text_literal(word: &[u8]) -> Result<Value, Complaint> {
     let inner = &word[1..word.len() - 1];
@@ -51,7 +51,7 @@ fn control_character(escape: char) -> Complaint {
         .help(format!("write `\\\\{escape}` for a backslash before `{escape}`"))
 }
 
-/// The problem of a word that begins like a number.
+/// The problem of a malformed number.
 pub(super) fn malformed_number(word: &[u8]) -> Complaint {
     let (mantissa, exponent) = word.split_at(word.iter().position(u8::is_ascii_alphabetic).unwrap_or(word.len()));
     if let [b'd' | b'D', digits @ ..] = exponent

@@ -25,11 +25,11 @@ pub(super) struct LogicalLine<'deck> {
 
 /// Ends of a physical line.
 enum LineEnd {
-    /// The statement is over, or goes on only because a parenthesis is open.
+    /// The statement ends, or continues only because a parenthesis is open.
     Plain,
     /// A backslash outside a text.
     Continued,
-    /// A backslash inside a text, which goes on with the first character of the next line.
+    /// A backslash inside a text, which continues with the first character of the next line.
     ContinuedText,
 }
 
@@ -40,10 +40,10 @@ struct Open {
     parentheses: usize,
 }
 
-/// Takes the next logical line off `lines`.
+/// Takes the next logical line from `lines`.
 ///
-/// It goes on after a backslash (S-60; blanks after it do not count, S-06) and, as in Python, while a parenthesis is
-/// open, but then not over a line that is a definition of its own: a missing parenthesis must not swallow the block.
+/// It continues after a backslash (S-60; blanks after it are ignored, S-06) and, as in Python, while a parenthesis is
+/// open, but then not beyond a line that is itself a definition: a missing parenthesis must not swallow the block.
 pub(super) fn next_logical_line<'deck>(
     lines: &mut Peekable<impl Iterator<Item = StatementLine<'deck>>>,
 ) -> Option<LogicalLine<'deck>> {
@@ -67,7 +67,7 @@ pub(super) fn next_logical_line<'deck>(
         let Some(line) = lines.next() else { break };
         let joined = text.to_mut();
         if !matches!(end, LineEnd::ContinuedText) {
-            // No word goes over the end of a line.
+            // Tokens do not continue over line ends.
             joined.push(b' ');
         }
         pieces.push((joined.len(), line.span));
@@ -106,7 +106,7 @@ fn begins_definition(line: &[u8]) -> bool {
 }
 
 impl LogicalLine<'_> {
-    /// The place of a range of the text in the deck; cut at the end of its first line when it goes on in another file.
+    /// The place of a range of the text in the deck; truncated at the end of its first line when it continues in another file.
     pub(super) fn place(&self, range: &Range<usize>) -> Span {
         let start = self.offset(range.start);
         let end = self.offset(range.end);
@@ -117,7 +117,7 @@ impl LogicalLine<'_> {
         Span::new(line.source(), start.start(), line.end().max(start.start()))
     }
 
-    /// The physical line that holds an offset of the text.
+    /// The physical line of an offset of the text.
     fn piece(&self, offset: usize) -> (usize, Span) {
         let after = self.pieces.partition_point(|(start, _)| *start <= offset);
         self.pieces[after.saturating_sub(1)]

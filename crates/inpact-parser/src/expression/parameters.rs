@@ -24,7 +24,7 @@ pub struct Definition {
 pub struct Parameters {
     definitions: Vec<Definition>,
     last_of_name: HashMap<String, usize>,
-    /// The names with capitals, by their lower case: to find the one that was meant.
+    /// The names with capitals, by their lower case, for suggestions.
     of_lower_case: HashMap<String, usize>,
     /// The bytes of all text values.
     pub(super) text_bytes: usize,
@@ -83,7 +83,7 @@ impl Parameters {
         self.definitions.iter().enumerate().filter(is_last).map(|(_, definition)| definition)
     }
 
-    /// Forgets the places of the definitions, so that two decks that define the same compare equal.
+    /// Clears the places of the definitions, so that equal definitions of two decks compare equal.
     pub(crate) fn forget_places(&mut self) {
         self.definitions.iter_mut().for_each(|definition| definition.span = Span::default());
         self.integer_divisions.clear();

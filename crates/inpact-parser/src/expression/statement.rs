@@ -49,7 +49,7 @@ fn execute(text: &[u8], from: usize, parameters: &Parameters) -> Option<Statemen
     let mut names = Vec::new();
     let mut expression = None;
     let outcome = definition(&mut evaluator, &mut names, &mut expression);
-    // The part that a problem left unread.
+    // The part left unread after a problem.
     while !matches!(evaluator.token, Token::Semicolon | Token::End) {
         evaluator.advance();
     }
@@ -58,7 +58,7 @@ fn execute(text: &[u8], from: usize, parameters: &Parameters) -> Option<Statemen
     Some(Statement { names, expression, outcome, divisions, end: evaluator.range.end })
 }
 
-/// `name = expression`; the name and where the expression begins are given even when there is a problem.
+/// `name = expression`; name and start of the expression are returned even when there is a problem.
 fn definition(
     evaluator: &mut Evaluator<'_>,
     names: &mut Vec<Range<usize>>,
@@ -144,7 +144,7 @@ fn several_names(
         return stop(all, Complaint::new(format!("{shown} is no definition")).help("write `name = expression`"));
     }
     evaluator.advance();
-    // After each other they would cost the square of their number.
+    // One by one they would take quadratic time.
     *expression = Some(evaluator.text.len());
     stop(
         all,
@@ -152,7 +152,7 @@ fn several_names(
     )
 }
 
-/// Puts what a statement gave where it belongs.
+/// Stores the result of a statement.
 fn record(
     statement: Statement,
     line: &LogicalLine<'_>,
@@ -193,7 +193,7 @@ fn record(
     }
 }
 
-/// The value, unless the texts of the deck have grown too long with it.
+/// The value, unless the texts of the deck exceed the limit with it.
 fn within_budget(value: Value, parameters: &Parameters) -> Result<Value, Complaint> {
     match &value {
         Value::Text(text) if parameters.text_bytes + text.len() > MAX_TEXT_IN_ALL => {

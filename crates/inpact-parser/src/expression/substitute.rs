@@ -25,12 +25,12 @@ pub enum SubstitutionError {
     /// The name is defined by a statement that has a problem, which is reported there (S016).
     #[error("the definition of the parameter `{0}` has no value")]
     WithoutValue(String),
-    /// The result would be longer than sixteen times the text and 64 KiB, which only a hostile deck can want.
+    /// The result would be longer than sixteen times the text and 64 KiB, which only a hostile deck has.
     #[error("{bytes} bytes become more than {most} when their parameters are substituted")]
     TooLong {
         /// The length of the text.
         bytes: usize,
-        /// The most that it may become.
+        /// The limit.
         most: usize,
     },
 }

@@ -45,7 +45,7 @@ pub(super) struct Columns {
     columns: Vec<Column>,
 }
 
-/// The room the items of a column need.
+/// The widths that the items of a column need.
 #[derive(Debug, Default, Clone)]
 struct Column {
     /// Some item is not a number: then all begin at the left.
@@ -56,7 +56,7 @@ struct Column {
 }
 
 impl Columns {
-    /// Makes room for the cells of a line.
+    /// Widens the columns for the cells of a line.
     pub(super) fn make_room(&mut self, cells: &[Cell]) {
         if self.columns.len() < cells.len() {
             self.columns.resize(cells.len(), Column::default());
@@ -69,7 +69,7 @@ impl Columns {
         }
     }
 
-    /// Writes a line without its line end: each item in its place, the comma right after it, no blanks at the end.
+    /// Writes a line without its line end: each item in its column, the comma directly after it, no trailing blanks.
     pub(super) fn write(&self, cells: &[Cell], text: &[u8], line: &mut Vec<u8>) {
         let mut due = 0;
         for (index, (column, cell)) in self.columns.iter().zip(cells).enumerate() {
@@ -99,7 +99,7 @@ impl Column {
     }
 }
 
-/// The number of characters, for UTF-8 text; other text only looks less tidy.
+/// The number of characters, for UTF-8 text; other text is only aligned less well.
 fn characters(bytes: &[u8]) -> usize {
     bytes.iter().filter(|byte| **byte & 0xC0 != 0x80).count()
 }

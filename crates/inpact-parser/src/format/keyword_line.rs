@@ -11,9 +11,9 @@ use crate::span::Span;
 /// The indent of a line that continues another.
 const CONTINUATION_INDENT: &[u8] = b"    ";
 
-/// The keyword line with its line ends; `None` when it is to stay as it is.
+/// The formatted keyword line with its line ends; `None` when it stays unchanged.
 ///
-/// That is so for a line with an open quote, an empty parameter, a piece that goes over a line end, and for one that
+/// That is the case for a line with an open quote, an empty parameter, a piece that spans a line end, and for one that
 /// would grow too long.
 pub(super) fn format(deck: &Deck, keyword: &KeywordLine, definition: &Definition, dialect: Dialect) -> Option<Vec<u8>> {
     if keyword.unterminated_quote().is_some() {
@@ -53,9 +53,9 @@ fn known_name(parameter: Parameter, definition: &Definition, dialect: Dialect) -
     Some(&definition.parameters[usize::from(index)].name)
 }
 
-/// A keyword line in the making.
+/// A keyword line under construction.
 struct Line<'deck> {
-    /// The line as it is.
+    /// The original line.
     written: &'deck [u8],
     /// Its offset in the file.
     offset: u64,
@@ -69,7 +69,7 @@ impl<'deck> Line<'deck> {
         self.written.get(index(start)..index(end)).unwrap_or(&[])
     }
 
-    /// A piece without the blanks at its end, which an empty value leaves; `None` for one that goes over a line end.
+    /// A piece without trailing blanks, which an empty value leaves; `None` for one that spans a line end.
     fn piece(&self, span: Span) -> Option<&'deck [u8]> {
         let piece = self.at(span.start(), span.end()).trim_ascii_end();
         (!piece.iter().any(|byte| matches!(byte, b'\n' | b'\r'))).then_some(piece)

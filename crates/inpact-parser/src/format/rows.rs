@@ -11,10 +11,10 @@ use crate::grammar::{Definition, RowShape};
 use crate::number::read_integer;
 use std::ops::Range;
 
-/// The rows of a block; `None` when they are to stay as they are.
+/// The formatted rows of a block; `None` when they stay unchanged.
 ///
-/// That is so for rows the grammar does not describe, for rows that are ignored beside a parameter, and where a
-/// line would grow too long: then the rows of the block cannot occur below one another.
+/// That is the case for rows the grammar does not describe, for rows that are ignored because of a parameter, and where a
+/// line would grow too long: then the rows of the block cannot be aligned.
 pub(super) fn format(deck: &Deck, block: &Block, definition: &Definition) -> Option<Vec<u8>> {
     let order = Order::of(deck, block, definition)?;
     let text = deck.text(block.rows());
@@ -39,9 +39,9 @@ pub(super) fn format(deck: &Deck, block: &Block, definition: &Definition) -> Opt
 /// Alignment of the lines of a block.
 #[derive(Debug, Clone, Copy)]
 enum Order {
-    /// A row of `width` items goes over `lines` lines; the first lines of all rows belong together, and so on (K-52).
+    /// A row of `width` items spans `lines` lines; the first lines of all rows are one group, and so on (K-52).
     Repeated { lines: usize, width: usize },
-    /// The first line is another matter than all that follow.
+    /// The first line is a group of its own, all others are another.
     Headed,
 }
 
@@ -56,7 +56,7 @@ impl Order {
         let keyword = block.keyword.as_ref()?;
         let parameter = |name: &str| keyword.given(name, definition);
         let counted = definition.data.counted.as_ref().and_then(|counted| parameter(&counted.count)?.value);
-        // The value of a symbol is not known here, and nothing but the look depends on it.
+        // The value of a symbol is not known here, and only affects the layout.
         let count = counted.and_then(|value| read_integer(deck.text(value)).ok()).unwrap_or(0);
         let count = usize::try_from(count).unwrap_or(0).min(crate::model::MOST_FIELD_VARIABLES);
         let layout = definition.layout(|name| parameter(name).is_some(), count)?;
@@ -73,7 +73,7 @@ impl Order {
         }
     }
 
-    /// The group of the line after one of `group` with so many items.
+    /// The group of the line after one of `group` with this number of items.
     fn next_group(self, group: usize, items: usize) -> usize {
         match self {
             Self::Headed => 1,
@@ -84,12 +84,12 @@ impl Order {
     }
 }
 
-/// The lines of a block, cut into cells, and the columns they need.
+/// The lines of a block, split into cells, and the columns they need.
 struct Rows {
     lines: Vec<Line>,
-    /// The cells of all lines, line after line.
+    /// The cells of all lines, line by line.
     cells: Vec<Cell>,
-    /// One set of columns a group.
+    /// One set of columns per group.
     columns: Vec<Columns>,
 }
 
@@ -99,7 +99,7 @@ struct Line {
     range: Range<usize>,
     /// The group of lines that it is aligned with.
     group: usize,
-    /// Its cells; `None` for a line that stays as it is.
+    /// Its cells; `None` for a line that stays unchanged.
     cells: Option<Range<usize>>,
 }
 
@@ -147,7 +147,7 @@ fn is_well_formed(line: &[u8], cells: &[Cell], text: &[u8], shape: RowShape) -> 
 
 /// The number of cells of a row that are written.
 ///
-/// In a row of numbers the empty ones at the end are not, but for one comma after a first item: `1.,` is how a single
+/// In a row of numbers the empty ones at the end are not, except for one comma after a first item: `1.,` is how a single
 /// item is usually written, and `,` alone is a row, which a blank line is not (S-08).
 fn kept(cells: &[Cell], shape: RowShape) -> usize {
     if !shape.is_numbers() {

@@ -204,7 +204,7 @@ impl Definition {
         lookup_among(written, there.map(|(index, parameter)| (index, parameter.name.as_str())))
     }
 
-    /// The parameter that is written in full; CalculiX looks at no more letters than the name of a flag has (CX-03).
+    /// The parameter written in full; CalculiX compares only the letters of the name of a flag (CX-03).
     fn parameter_in_full(&self, written: &[u8]) -> Lookup<usize> {
         let is_meant = |parameter: &ParameterDefinition| match parameter.kind {
             ParameterKind::Flag => begins_with_name(written, &parameter.name),
@@ -213,7 +213,7 @@ impl Definition {
         self.parameters.iter().position(is_meant).map_or(Lookup::Unknown, Lookup::Exact)
     }
 
-    /// Has parameters and choices recognised as CalculiX does it (CX-03).
+    /// Makes parameters and choices match as in CalculiX (CX-03).
     pub(super) fn match_in_full(&mut self) {
         self.matching = Matching::InFull;
         self.parameters.iter_mut().for_each(|parameter| parameter.matching = Matching::InFull);
@@ -229,9 +229,9 @@ impl Definition {
         self.data.layout(given, count)
     }
 
-    /// Takes out everything that forbids or demands something: names and columns are left.
+    /// Removes all restrictions and requirements, leaving names and columns.
     ///
-    /// For a definition of Abaqus that replaces one of CalculiX, where no list says what differs.
+    /// For an Abaqus definition used for CalculiX, where the differences are unknown.
     pub(super) fn loosen(&mut self) {
         self.parameters_complete = false;
         self.levels.clear();

@@ -7,11 +7,11 @@
 pub enum Lookup<T> {
     /// The name in full.
     Exact(T),
-    /// The beginning of one name and of no other.
+    /// A unique prefix of one name.
     Abbreviated(T),
-    /// The beginning of several names, in their order.
+    /// A prefix of several names, in their order.
     Ambiguous(Vec<T>),
-    /// The beginning of none.
+    /// A prefix of no name.
     Unknown,
 }
 
@@ -33,7 +33,7 @@ pub fn lookup_name<'name>(written: &[u8], names: impl IntoIterator<Item = &'name
     lookup_among(written, indexed)
 }
 
-/// Looks up a written name among named things.
+/// Looks up a written name among named items.
 pub(super) fn lookup_among<'name, T>(written: &[u8], named: impl IntoIterator<Item = (T, &'name str)>) -> Lookup<T> {
     match Folded::new(written) {
         Some(folded) => decide(folded.as_bytes(), named),
@@ -41,7 +41,7 @@ pub(super) fn lookup_among<'name, T>(written: &[u8], named: impl IntoIterator<It
     }
 }
 
-/// Decides between names: the exact one, else the only one that begins so.
+/// Selects the exact name, else the only one with this prefix.
 pub(super) fn decide<'name, T>(folded: &[u8], named: impl IntoIterator<Item = (T, &'name str)>) -> Lookup<T> {
     let mut only = None;
     let mut others = Vec::new();
@@ -69,7 +69,7 @@ enum Match {
     No,
 }
 
-/// Whether a name, blanks not counted, begins with the folded text. Names are upper case.
+/// Whether a name, ignoring blanks, begins with the folded text. Names are upper case.
 fn begins_with(name: &str, folded: &[u8]) -> Match {
     let mut letters = name.bytes().filter(|byte| *byte != b' ');
     if !folded.iter().all(|byte| letters.next() == Some(*byte)) {
@@ -97,10 +97,10 @@ pub(super) struct Folded {
 }
 
 impl Folded {
-    /// More than any name has; a test holds the names against it.
+    /// More than any name has, which a test verifies.
     pub(super) const LONGEST: usize = 64;
 
-    /// `None` when nothing is left, or more than any name has: such a word means nothing.
+    /// `None` when it is blank, or longer than any name.
     pub(super) fn new(written: &[u8]) -> Option<Self> {
         let mut folded = Self { bytes: [0; Self::LONGEST], length: 0 };
         for byte in fold(written) {
@@ -115,7 +115,7 @@ impl Folded {
     }
 }
 
-/// The bytes that count, in upper case. Line ends are none of them: a keyword line may go on after one (S-19).
+/// The significant bytes, in upper case. Line ends are not: a keyword line may continue after one (S-19).
 pub(super) fn fold(written: &[u8]) -> impl Iterator<Item = u8> {
     written.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase)
 }

@@ -4,7 +4,7 @@
 
 use super::lookup::{Folded, fold};
 
-/// The shortest text whose being the beginning of a name, or a name's being its beginning, says something.
+/// The shortest length for a significant prefix match.
 const TELLING: usize = 4;
 
 /// The names similar to a word, the nearest first.
@@ -24,18 +24,18 @@ pub fn nearest<'name>(written: &[u8], names: impl IntoIterator<Item = &'name str
     near.into_iter().take(at_most).map(|(_, name)| name).collect()
 }
 
-/// The distance of a name from a word; `None` when it is too far to be meant.
+/// The edit distance of a name from a word; `None` when it is too large.
 fn nearness(word: &[u8], name: &[u8]) -> Option<usize> {
     let shorter = word.len().min(name.len());
     let common = word.iter().zip(name).take_while(|(a, b)| a == b).count();
     let extends = shorter >= TELLING && common == shorter;
     let allowed = ((word.len() + 2) / 4).clamp(1, 6);
     let edits = edit_distance(word, name, allowed);
-    // A name that the word only lengthens or cuts short is as near as one with one letter wrong.
+    // A name of which the word is a prefix, or vice versa, counts as one wrong letter.
     edits.or(extends.then_some(allowed))
 }
 
-/// The number of letters to insert, leave out, replace or swap with their neighbour; `None` when more than `most`.
+/// The Damerau–Levenshtein distance (insertions, deletions, substitutions, transpositions); `None` when more than `most`.
 fn edit_distance(a: &[u8], b: &[u8], most: usize) -> Option<usize> {
     if a.len().abs_diff(b.len()) > most {
         return None;

@@ -6,11 +6,11 @@ use serde::Serialize;
 use serde_json::ser::{CharEscape, Formatter};
 use std::io;
 
-/// Writes a document as JSON for people, with a line end at its end.
+/// Writes a document as readable JSON, with a final line end.
 pub(super) fn to_string(document: &impl Serialize) -> String {
     let mut bytes = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut bytes, Lines::default());
-    // Strings, numbers and lists of them have no reason to fail, and neither has a buffer in memory.
+    // Strings, numbers and lists of them cannot fail, and neither can a buffer in memory.
     let written = document.serialize(&mut serializer);
     debug_assert!(written.is_ok(), "{written:?}");
     bytes.push(b'\n');
@@ -21,9 +21,9 @@ pub(super) fn to_string(document: &impl Serialize) -> String {
 #[derive(Debug, Default)]
 struct Lines {
     depth: usize,
-    /// A list element has begun, and nobody knows yet whether it is a list or an object.
+    /// A list element has begun, and it is not known yet whether it is a list or an object.
     pending: Option<Pending>,
-    /// For every open list or object: whether something in it went onto a line of its own.
+    /// For every open list or object: whether it spans several lines.
     broken: Vec<bool>,
 }
 
@@ -75,7 +75,7 @@ impl Lines {
     }
 }
 
-/// Passes a scalar on once its place is settled.
+/// Writes a scalar once its position is determined.
 macro_rules! scalars {
     ($($method:ident: $type:ty),+) => {
         $(fn $method<W: ?Sized + io::Write>(&mut self, writer: &mut W, value: $type) -> io::Result<()> {

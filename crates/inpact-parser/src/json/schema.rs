@@ -25,7 +25,7 @@ pub(super) fn check<T: JsonSchema>(file: &str) {
 
 /// Takes away what says more about Rust than about JSON.
 fn plain(schema: &mut Schema) {
-    // `double` and `uint64` are no formats of JSON Schema.
+    // `double` and `uint64` are not formats of JSON Schema.
     schema.remove("format");
     if let Some(description) = schema.get("description").and_then(Value::as_str).map(|text| text.replace('\n', " ")) {
         schema.insert("description".to_owned(), description.into());

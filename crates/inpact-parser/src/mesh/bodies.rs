@@ -217,7 +217,7 @@ impl Reader<'_, '_> {
         let mut without: Vec<(Span, String)> = Vec::new();
         data_lines(&mut *self.rows, option.block, &mut |line, span| {
             let Some((element, nodes)) = rows.take(line, span) else { return };
-            // Of sections that name an element twice the later one counts.
+            // If several sections name an element the last one applies.
             let section = sections.iter().rposition(|section| section.elements.contains(element, key));
             let Some(at) = section else {
                 return without.push((span, format!("element {element} has no *SOLID SECTION")));
@@ -272,7 +272,7 @@ impl Reader<'_, '_> {
         Ok(sections)
     }
 
-    /// Finds what a terminal names: a surface, or else a node set, or else a node by its number.
+    /// Resolves a terminal: a surface, or else a node set, or else a node number.
     fn pick_terminal(&mut self, at: usize, name: &Name, picks: &mut Picks) -> io::Result<Option<Found>> {
         let reference = Reference { name: name.clone(), span: Span::default() };
         if self.find_surface(&reference).is_some() {
@@ -287,7 +287,7 @@ impl Reader<'_, '_> {
         Ok(Some(Found { span, of_nodes: true }))
     }
 
-    /// Finds the nodes of an instance, and turns the numbers of its elements' nodes into positions.
+    /// Finds the nodes of an instance, and maps the node numbers of its elements to positions.
     fn body_nodes(
         &mut self,
         instance: usize,
@@ -310,7 +310,7 @@ impl Reader<'_, '_> {
         let mut missing = Vec::new();
         let mut next = of_elements.iter().peekable();
         for (label, point) in wanted.labels.into_iter().zip(wanted.points) {
-            // Nodes of sets that no solid element has are none of a body.
+            // Nodes of sets that are not on solid elements do not belong to a body.
             if next.peek() != Some(&&label) {
                 continue;
             }
@@ -339,7 +339,7 @@ impl Reader<'_, '_> {
         for block in mesh.elements.iter_mut().filter(|block| block.instance == instance) {
             block.axes = std::mem::replace(&mut block.axes, MaterialAxes::Unsaid).placed(&placement);
             for node in &mut block.nodes {
-                // Where a node is missing the mesh is refused.
+                // A missing node makes the mesh invalid.
                 *node = positions.of(node.0).unwrap_or_default();
             }
         }
@@ -400,7 +400,7 @@ struct Positions {
     labels: Vec<u32>,
     /// The position of the first.
     first: usize,
-    /// By number, where numbers are dense enough: the position + 1 among `labels`; 0 where there is none.
+    /// Lookup table by number, where numbers are dense enough: the position + 1 among `labels`; 0 where there is none.
     dense: Vec<u32>,
 }
 
@@ -425,7 +425,7 @@ impl Positions {
     }
 }
 
-/// Numbers, ascending and each once: of dense ones no list is sorted.
+/// Sorted distinct numbers; dense ones by a bitmap instead of sorting.
 fn distinct(numbers: impl Iterator<Item = u32>, end: usize, count: usize) -> Vec<u32> {
     if 8 * count + 1024 < end {
         return numbers.collect();

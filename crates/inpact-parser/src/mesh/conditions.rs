@@ -60,13 +60,13 @@ pub struct Condition {
 /// Kinds of conditions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ConditionKind {
-    /// Holds the field at a value.
+    /// A prescribed value of the field.
     Held(ConditionField),
-    /// Lets flow in at each node: heat, current.
+    /// A concentrated flux at each node: heat, current.
     Flow(ConditionField),
-    /// Lets flow in through each face, per area.
+    /// A distributed flux through each face, per area.
     FlowPerArea(ConditionField),
-    /// Lets heat pass between each face and a sink.
+    /// A film condition between each face and a sink.
     Film {
         /// The film coefficient, heat per time, area and temperature.
         coefficient: f64,
@@ -85,7 +85,7 @@ pub enum ConditionField {
 }
 
 impl ConditionField {
-    /// The field of a degree of freedom; CalculiX has no pore pressure, and its potentials are of another kind.
+    /// The field of a degree of freedom; CalculiX has no pore pressure, and its potentials are other quantities.
     fn of(freedom: i64, dialect: Dialect) -> Option<Self> {
         match (freedom, dialect) {
             (8, Dialect::Abaqus) => Some(Self::PorePressure),
@@ -108,7 +108,7 @@ pub enum Target {
     Faces(Reference, FaceLabel),
 }
 
-/// What a target is, its name, and its face.
+/// The kind of a target, its name, and its face.
 type TargetKey = (Discriminant<Target>, Name, Option<FaceLabel>);
 
 /// Parts of the mesh, each once: a deck may name every node by itself.
@@ -119,7 +119,7 @@ pub(super) struct Targets {
 }
 
 impl Targets {
-    /// The position of a target, which is new or known.
+    /// The position of a target, added if it is new.
     pub(super) fn position(&mut self, target: Target) -> usize {
         *self.positions.entry(target.key()).or_insert_with(|| {
             self.list.push(target);
@@ -164,7 +164,7 @@ struct Said {
 }
 
 impl<'deck> Reader<'deck, '_> {
-    /// The conditions that hold in a step, and the parts of the mesh that they are on; these have no positions yet.
+    /// The conditions of a step, and their parts of the mesh, which have no positions yet.
     pub(super) fn conditions(&mut self, step: usize) -> io::Result<(DeckConditions, Vec<Target>)> {
         let amplitudes = self.amplitudes()?;
         let step_amplitude = step.checked_sub(1).and_then(|at| self.layout.steps.get(at));
@@ -249,7 +249,7 @@ impl<'deck> Reader<'deck, '_> {
         Ok(rows)
     }
 
-    /// Picks what a target names; `None` where it is a surface that is not read.
+    /// Resolves a target; `None` where it is a surface that is not read.
     pub(super) fn pick_target(
         &mut self,
         surface: usize,
@@ -278,7 +278,7 @@ impl Target {
         (discriminant(self), self.reference().name.clone(), face)
     }
 
-    /// Its name, and where it is named.
+    /// Its name, and the place of the reference.
     pub(super) fn reference(&self) -> &Reference {
         match self {
             Self::Surface(name) | Self::Nodes(name) | Self::Faces(name, _) => name,
@@ -293,7 +293,7 @@ fn fields_held(row: &Cells, dialect: Dialect) -> Vec<ConditionField> {
     (first..=last.min(first + 30)).filter_map(|freedom| ConditionField::of(freedom, dialect)).collect()
 }
 
-/// Reads a row of a keyword; nothing where it is of other fields.
+/// Reads a row of a keyword; `None` where it concerns other fields.
 fn said(keyword: &str, row: &Cells, dialect: Dialect) -> Result<Vec<Said>, String> {
     let nodal = |field| {
         let magnitude = row.number(2)?;

@@ -9,7 +9,7 @@ use crate::span::Span;
 use inpact_geometry::{ElementShape, ElementSpace, ElementType, FaceLabel, FaceShape, FreeFaces, MAX_NODES, NodeId};
 use std::io;
 
-/// The faces that a row of *SURFACE picks in one instance.
+/// The faces selected by a row of *SURFACE in one instance.
 #[derive(Debug, Clone)]
 pub(super) struct Pick {
     /// Its surface.
@@ -22,7 +22,7 @@ pub(super) struct Pick {
     pub(super) span: Span,
 }
 
-/// A face that was found, by the numbers of its nodes.
+/// A selected face, by the numbers of its nodes.
 #[derive(Debug, Clone)]
 pub(super) struct RawFace {
     pub(super) surface: usize,
@@ -48,7 +48,7 @@ impl RawFace {
 }
 
 impl Reader<'_, '_> {
-    /// Finds the faces that are picked; free faces take a second look at the elements that have them.
+    /// Finds the selected faces; free faces take a second pass over their elements.
     pub(super) fn faces(&mut self, picks: &[Pick]) -> io::Result<Vec<RawFace>> {
         let mut faces = Vec::new();
         let free = self.sweep(picks, &mut faces)?;
@@ -60,7 +60,7 @@ impl Reader<'_, '_> {
         Ok(faces)
     }
 
-    /// One look at all elements: adds the faces picked by name, and gives picks of the free faces by name.
+    /// One pass over all elements: adds the faces selected by label, and returns selections of the free faces by label.
     fn sweep(&mut self, picks: &[Pick], faces: &mut Vec<RawFace>) -> io::Result<Vec<Pick>> {
         let mut named = Vec::new();
         for instance in 0..self.instances.len() {
@@ -68,7 +68,7 @@ impl Reader<'_, '_> {
             if here.is_empty() {
                 continue;
             }
-            // Which faces are free does not depend on who asks: one map does for all picks.
+            // Free faces do not depend on the selection: one map serves all selections.
             let mut free = here.iter().any(|pick| pick.face.is_none()).then(Free::default);
             for option in self.entries_of(instance, |definitions| &definitions.elements) {
                 self.rows_of(option, &here, &mut free, faces)?;
@@ -97,7 +97,7 @@ impl Reader<'_, '_> {
         let Some(kind) = ElementType::named(name) else {
             return self.unknown_rows(option, name, picks);
         };
-        // Most rows are in no pick: one comparison is made for all.
+        // Most rows are not selected: one comparison rejects them.
         let mut any = Selection::default();
         picks.iter().filter(|pick| pick.elements.may_touch(key)).for_each(|pick| any.add_all(&pick.elements));
         any.labels.sort();
@@ -109,7 +109,7 @@ impl Reader<'_, '_> {
         }
         let needs_all = free.is_some();
         data_lines(&mut *self.rows, option.block, &mut |line, span| {
-            // Of a row on one line that nobody picks, the number of the element is all that is looked at.
+            // For an unselected row on one line only the element number is parsed.
             if !needs_all && rows.is_between() && is_passed_over(line, kind.shape, &any, key) {
                 return;
             }
@@ -160,7 +160,7 @@ impl Reader<'_, '_> {
         Ok(())
     }
 
-    /// Says which rows of an option were not read.
+    /// Notes the rows of an option that were not read.
     pub(super) fn note_rows(&mut self, mut rows: ElementRows<'_>, option: Span) {
         if let Some((span, message)) = rows.wrong.take() {
             self.note(span, format!("{message}; the row was not read"));
@@ -171,7 +171,7 @@ impl Reader<'_, '_> {
         self.note_first(rows.incomplete, "and was not read");
     }
 
-    /// Says so where a surface picks elements of a type whose faces are not known.
+    /// Notes where a surface selects elements of an unknown type.
     fn unknown_rows(&mut self, option: Entry<'_>, name: &str, picks: &[&Pick]) -> io::Result<()> {
         let key = option.keyword.span;
         let mut found = 0_u64;
@@ -194,19 +194,19 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The most nodes of an element whose faces are known.
+/// The maximum number of nodes of a known element.
 const MAX_ELEMENT_NODES: usize = 20;
 
 /// The free faces of an instance.
 #[derive(Default)]
 struct Free {
     faces: FreeFaces,
-    /// The *ELEMENT options met so far.
+    /// The *ELEMENT options so far.
     options: Vec<Span>,
 }
 
 impl Free {
-    /// Takes an element of the last option.
+    /// Adds an element of the last option.
     fn meet(&mut self, element: u32, is_wanted: bool, shape: ElementShape, numbers: &[u32]) {
         let mut nodes = [NodeId(0); MAX_ELEMENT_NODES];
         for (node, number) in nodes.iter_mut().zip(numbers) {
@@ -251,7 +251,7 @@ impl Free {
     }
 }
 
-/// Whether the free faces of an element are picked.
+/// Whether the free faces of an element are selected.
 fn is_wanted(picks: &[&Pick], element: u32, option: Span) -> bool {
     picks.iter().any(|pick| pick.face.is_none() && pick.elements.contains(element, option))
 }
@@ -277,7 +277,7 @@ pub(super) struct ElementRows<'a> {
     name: &'a str,
     row: Vec<u32>,
     is_whole: bool,
-    /// The first line that has something else than numbers.
+    /// The first line with anything other than numbers.
     wrong: Option<(Span, String)>,
     incomplete: Vec<(Span, String)>,
 }
@@ -293,7 +293,7 @@ impl<'a> ElementRows<'a> {
         self.is_whole || self.row.is_empty()
     }
 
-    /// Takes a line: the number of the element and its nodes, where it ends one.
+    /// Adds a line; returns the number of the element and its nodes, where it completes one.
     pub(super) fn take(&mut self, line: &[u8], span: Span) -> Option<(u32, &[u32])> {
         if self.is_whole {
             self.row.clear();
@@ -327,7 +327,7 @@ impl<'a> ElementRows<'a> {
 
 /// Adds the numbers of a line to a row; false where something is not a number.
 ///
-/// In one pass: all elements go through here where free faces are wanted.
+/// In one pass: this is the hot path for free faces.
 fn integers(line: &[u8], row: &mut Vec<u32>) -> bool {
     let mut rest = line;
     loop {

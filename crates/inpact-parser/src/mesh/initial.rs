@@ -42,7 +42,7 @@ impl Mesh {
     }
 }
 
-/// A row: what it names, and its numbers.
+/// A row: its target and its numbers.
 struct Row {
     target: String,
     /// `None` for what is not a number.
@@ -66,7 +66,7 @@ impl Reader<'_, '_> {
             let rows = self.initial_rows(option)?;
             self.apply(rows, located, &mut fields[at])?;
         }
-        // An option whose rows name no node of a surface says nothing here.
+        // An option whose rows name no node of a surface is ignored.
         fields.retain(|field| field.values.iter().any(Option::is_some));
         fields.sort_by_key(|field| field.quantity);
         Ok(fields)
@@ -121,11 +121,11 @@ impl Reader<'_, '_> {
     fn apply(&mut self, rows: Vec<Row>, located: &Located, field: &mut InitialField) -> io::Result<()> {
         let mut wrong = Vec::new();
         let mut more = Vec::new();
-        // Rows in a row mostly differ; sets are looked up once each all the same.
+        // Consecutive rows mostly differ; each set is looked up once.
         let mut last: Option<(String, Rc<Selected>)> = None;
         for Row { target, values, span } in rows {
             let value = match (field.quantity, &values[..]) {
-                // A pore pressure with elevations is one that varies with height.
+                // A pore pressure with elevations varies with height.
                 (InitialQuantity::PorePressure, &[Some(value)]) => value,
                 (InitialQuantity::Temperature | InitialQuantity::FieldVariable(_), &[Some(value), ref others @ ..]) => {
                     if !others.is_empty() {

@@ -1,11 +1,11 @@
 //! Sets of node or element numbers as ranges: a set of a million consecutive numbers is one range.
 
-/// Numbers, added in any order, looked up once all are there.
+/// Numbers, added in any order and looked up once complete.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(super) struct Labels {
     /// First and last of each range; ascending and apart once sorted.
     ranges: Vec<(u32, u32)>,
-    /// First, last and step of those that are apart: a row of GENERATE can mean billions.
+    /// First, last and step of strided ranges: a row of GENERATE can mean billions.
     stepped: Vec<(u32, u32, u32)>,
     sorted: bool,
 }
@@ -45,7 +45,7 @@ impl Labels {
         self.ranges.is_empty() && self.stepped.is_empty()
     }
 
-    /// The number, where it is but one.
+    /// The number, if there is only one.
     pub(super) fn single(&self) -> Option<u32> {
         match self.ranges[..] {
             [(first, last)] if first == last && self.stepped.is_empty() => Some(first),

@@ -64,13 +64,13 @@ pub(super) struct Definitions<'deck> {
     pub(super) surfaces: Vec<Entry<'deck>>,
     pub(super) sections: Vec<Entry<'deck>>,
     pub(super) orientations: Vec<Entry<'deck>>,
-    /// Options that make nodes or elements, or move them, and are not read.
+    /// Options that generate or move nodes or elements, and are not read.
     pub(super) makers: Vec<(String, Span)>,
     /// Options by the names that they give: a deck may have more of them than anything else.
     called: HashMap<(Gives, Name), Vec<Entry<'deck>>>,
 }
 
-/// Options that give a name to what they have.
+/// Options that name a set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Gives {
     /// ELSET of *ELEMENT.
@@ -94,7 +94,7 @@ pub(super) struct Instance<'deck> {
     pub(super) own: Definitions<'deck>,
 }
 
-/// A *MATERIAL with the options that say what it conducts and holds.
+/// A *MATERIAL with its options for conduction and capacity.
 #[derive(Debug, Clone)]
 pub(super) struct MaterialEntries<'deck> {
     pub(super) name: Name,
@@ -103,7 +103,7 @@ pub(super) struct MaterialEntries<'deck> {
     pub(super) properties: Vec<(String, Entry<'deck>)>,
 }
 
-/// The deck by levels.
+/// The structure of the deck by level.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Layout<'deck> {
     pub(super) model: Definitions<'deck>,

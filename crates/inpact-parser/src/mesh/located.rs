@@ -8,7 +8,7 @@ use inpact_geometry::NodeId;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// The nodes that were found, numbered.
+/// The located nodes, numbered.
 #[derive(Debug, Default)]
 pub(super) struct Located {
     pub(super) points: Vec<[f64; 3]>,
@@ -18,7 +18,7 @@ pub(super) struct Located {
     pub(super) options: Vec<Span>,
     /// The nodes of each instance.
     pub(super) of_instances: Vec<Range<usize>>,
-    /// The numbers of the nodes of each pick.
+    /// The numbers of the nodes of each selection.
     pub(super) of_picks: Vec<Vec<u32>>,
 }
 

@@ -48,7 +48,7 @@ pub struct MaterialProperty {
 /// TYPE of a conductivity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TensorKind {
-    /// One value: ISO, and what has no direction.
+    /// One value: ISO, and properties without direction.
     Isotropic,
     /// k₁₁, k₂₂, k₃₃: ORTHO.
     Orthotropic,
@@ -74,7 +74,7 @@ impl<'deck> Reader<'deck, '_> {
         for MaterialEntries { name, entry, properties } in std::mem::take(&mut self.layout.materials) {
             let mut property = |keyword: &'static str| -> io::Result<Option<MaterialProperty>> {
                 let mut of_keyword = properties.iter().filter(|(name, _)| is_called(keyword, name));
-                // Of an option given twice the later one counts.
+                // Of duplicate options the last one applies.
                 of_keyword.next_back().map_or(Ok(None), |(_, entry)| self.property(keyword, *entry))
             };
             materials.push(BodyMaterial {

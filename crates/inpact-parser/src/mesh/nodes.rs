@@ -11,12 +11,12 @@ use crate::span::Span;
 use inpact_geometry::Point;
 use std::io;
 
-/// The nodes that are wanted of one instance, and what was found.
+/// The requested nodes of one instance, and those found.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Wanted {
     /// Ascending, each once.
     pub(super) labels: Vec<u32>,
-    /// In the same order: where, and the keyword line of the *NODE option that says so; `None` where none has the number.
+    /// In the same order: coordinates, and the keyword line of the *NODE option; `None` where none has the number.
     pub(super) points: Vec<Option<(Point, Span)>>,
 }
 
@@ -68,7 +68,7 @@ impl Reader<'_, '_> {
         Ok(placement)
     }
 
-    /// Finds the wanted nodes of a instance. Gives, for each selection, the numbers of the nodes that are in it.
+    /// Finds the requested nodes of an instance. Returns, for each selection, the numbers of its nodes.
     pub(super) fn read_nodes(
         &mut self,
         instance: usize,
@@ -92,7 +92,7 @@ impl Reader<'_, '_> {
                 _ => System::Rectangular,
             };
             let mut wrong: Option<(Span, String)> = None;
-            // Rows mostly ascend: the next one wanted is mostly the next one found.
+            // Rows mostly ascend: the next requested node is mostly the next one found.
             let mut next = 0;
             data_lines(&mut *self.rows, option.block, &mut |line, span| {
                 let end = memchr::memchr(b',', line).unwrap_or(line.len());
@@ -131,7 +131,7 @@ impl Reader<'_, '_> {
         let known = std::mem::take(wanted);
         let mut all: Vec<(u32, Option<(Point, Span)>)> = known.labels.into_iter().zip(known.points).collect();
         all.extend(extra.into_iter().map(|(label, point)| (label, Some(point))));
-        // Of a number defined twice, the later definition counts; the sort keeps their order.
+        // Of duplicate definitions of a number the last one applies; the sort is stable.
         all.sort_by_key(|(label, _)| *label);
         for (label, point) in all {
             if wanted.labels.last() == Some(&label) {
@@ -145,7 +145,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The index of a number among the wanted ones.
+/// The index of a number among the requested ones.
 fn place_of(wanted: &[u32], label: u32, next: usize) -> Option<usize> {
     if wanted.get(next) == Some(&label) { Some(next) } else { wanted.binary_search(&label).ok() }
 }

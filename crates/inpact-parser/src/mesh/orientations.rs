@@ -24,7 +24,7 @@ pub enum MaterialAxes {
 }
 
 impl MaterialAxes {
-    /// The same in an instance at its place.
+    /// The same in a placed instance.
     pub(super) fn placed(self, placement: &Placement) -> Self {
         match self {
             Self::Along(axes) => Self::Along(axes.map(|axis| placement.turn(axis))),
@@ -38,7 +38,7 @@ impl Reader<'_, '_> {
     pub(super) fn material_axes(&mut self, instance: usize, orientation: Option<Name>) -> io::Result<MaterialAxes> {
         let Some(name) = orientation else { return Ok(MaterialAxes::Unsaid) };
         let options = self.chain(Context::Instance(instance)).flat_map(|definitions| &definitions.orientations);
-        // Of a name given twice the later one counts.
+        // Of duplicate names the last one applies.
         let entry = options.filter(|entry| entry.named("NAME").as_ref() == Some(&name)).last().copied();
         let axes = match entry {
             None => Err("is not defined".to_owned()),
@@ -68,7 +68,7 @@ impl Reader<'_, '_> {
     }
 }
 
-/// The axes that rows say; `None` where they say none.
+/// The axes given by rows; `None` where they give none.
 fn axes(rows: &[Option<Vec<f64>>], has_origin: bool) -> Option<[Point; 3]> {
     let mut rows = rows.iter();
     let mut points = rows.next()?.clone()?;
@@ -101,7 +101,7 @@ fn cross(a: Point, b: Point) -> Point {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// The vector with the length 1; `None` of one that has no direction.
+/// The unit vector; `None` for the zero vector.
 fn unit(vector: Point) -> Option<Point> {
     let length = vector.iter().map(|component| component * component).sum::<f64>().sqrt();
     (0.0 < length && length.is_finite()).then(|| vector.map(|component| component / length))

@@ -18,7 +18,7 @@ use std::collections::HashMap;
 pub enum Sliding {
     /// Any distance.
     Finite,
-    /// SMALL SLIDING: what is across from a slave node at the start stays across from it.
+    /// SMALL SLIDING: the initial projection of a slave node is kept.
     Small,
 }
 
@@ -142,7 +142,7 @@ pub(super) struct Request {
 }
 
 impl MeshPair {
-    /// The pair by the positions that its surfaces have come to; `None` where one was not found.
+    /// The pair by the positions of its surfaces; `None` where one was not found.
     pub(super) fn with_surfaces(self, positions: &[Option<usize>]) -> Option<Self> {
         Some(Self { slave: positions[self.slave]?, master: positions[self.master]?, ..self })
     }
@@ -249,7 +249,7 @@ impl Reader<'_, '_> {
         pair
     }
 
-    /// Takes a *CLEARANCE over; `of_surfaces` has the first pair of a slave and a master.
+    /// Applies a *CLEARANCE; `of_surfaces` has the first pair of a slave and a master.
     fn clearance(&mut self, entry: Entry<'_>, request: &mut Request, of_surfaces: &HashMap<[usize; 2], usize>) {
         let position = |parameter| {
             let named = Reference { name: entry.named(parameter)?, span: entry.span() };
@@ -292,7 +292,7 @@ impl MeshPair {
 }
 
 impl Request {
-    /// The position of a surface, which is new or known.
+    /// The position of a surface, added if it is new.
     fn surface(&mut self, reference: &Reference) -> usize {
         self.surfaces.position(Target::Surface(reference.clone()))
     }

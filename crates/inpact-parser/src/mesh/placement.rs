@@ -17,7 +17,7 @@ impl Placement {
         self.rotation.is_some()
     }
 
-    /// A direction in the instance, turned as it is.
+    /// A direction in the instance, rotated.
     pub(super) fn turn(&self, direction: Point) -> Point {
         let about_origin = |(a, b, angle): (Point, Point, f64)| ([0.0; 3], [0, 1, 2].map(|k| b[k] - a[k]), angle);
         Self { translation: [0.0; 3], rotation: self.rotation.map(about_origin) }.put(direction)

@@ -44,13 +44,13 @@ pub(super) struct Reader<'deck, 'rows> {
     pub(super) rows: &'rows mut dyn RowBytes,
     pub(super) instances: Vec<Instance<'deck>>,
     pub(super) sets: HashMap<(Kind, Context, String), Selected>,
-    /// The options that are no part of an instance.
+    /// The options outside of instances.
     pub(super) layout: Layout<'deck>,
     pub(super) dialect: Dialect,
     /// The instances by the canonical forms of their names, the first of each.
     by_name: HashMap<String, usize>,
     pub(super) notes: Vec<MeshNote>,
-    /// The same, so that each is said once.
+    /// The same, so that each is reported once.
     noted: HashSet<MeshNote>,
 }
 
@@ -100,7 +100,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         }
     }
 
-    /// One note for many of a kind: the first of them, and how many there are.
+    /// One note for many of a kind: the first of them, and their number.
     pub(super) fn note_first(&mut self, mut found: Vec<(Span, String)>, ending: &str) {
         if found.is_empty() {
             return;
@@ -111,7 +111,7 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         self.note(span, format!("{first} {ending}{more}"));
     }
 
-    /// The options that names are looked up in.
+    /// The options in which names are looked up.
     pub(super) fn chain(&self, context: Context) -> impl Iterator<Item = &Definitions<'deck>> {
         let assembly = matches!(context, Context::Top).then_some(&self.layout.assembly);
         self.instances[context.instance()].chain.iter().chain(assembly)
@@ -130,12 +130,12 @@ impl<'deck, 'rows> Reader<'deck, 'rows> {
         self.by_name.get(name.canonical()).copied()
     }
 
-    /// Takes the name of an instance or of the assembly from the front of a dotted name (S-44).
+    /// Splits the name of an instance or of the assembly from a dotted name (S-44).
     pub(super) fn without_prefix(&self, context: Context, name: Name) -> (Context, Name) {
         let written = name.canonical();
         let rest_after = |dot: usize| {
             let rest = &written[dot + 1..];
-            // In quotes it stays as it is.
+            // In quotes it is unchanged.
             (!rest.is_empty()).then(|| Name::new(&format!("\"{rest}\"")))
         };
         let assembly = self.layout.assembly_name.as_ref().map(Name::canonical);

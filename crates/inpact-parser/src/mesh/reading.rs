@@ -14,7 +14,7 @@ use crate::span::Span;
 use std::io;
 
 impl Reader<'_, '_> {
-    /// Reads the contact pairs, and targets beside them; gives the positions of these among the surfaces of the mesh.
+    /// Reads the contact pairs, and further targets; returns the positions of these among the surfaces of the mesh.
     pub(super) fn read(mut self, model: &Model, targets: &[Target]) -> io::Result<(Mesh, Vec<Option<usize>>)> {
         let Request { surfaces: mut wanted, pairs } = self.request(model);
         let places: Vec<usize> = targets.iter().map(|target| wanted.position(target.clone())).collect();
@@ -35,13 +35,13 @@ impl Reader<'_, '_> {
             let name = target.reference().clone();
             let from = faces.partition_point(|face| face.surface < surface);
             let to = faces.partition_point(|face| face.surface <= surface);
-            // Surfaces were picked in their order.
+            // Surfaces were selected in order.
             let first = picks.nodes.partition_point(|pick| pick.surface < surface);
             let end = picks.nodes.partition_point(|pick| pick.surface <= surface);
             let of_nodes = picks.nodes[first..end].iter().zip(&located.of_picks[first..end]);
             surfaces.push(self.surface(name, found, &faces[from..to], of_nodes, &located)?);
         }
-        // Pairs whose surfaces were not found stay out; a note says so.
+        // Pairs whose surfaces were not found are left out, with a note.
         let positions: Vec<Option<usize>> = surfaces
             .iter()
             .scan(0, |next, surface| {
@@ -59,7 +59,7 @@ impl Reader<'_, '_> {
         Ok((mesh, places.into_iter().map(|place| positions[place]).collect()))
     }
 
-    /// Reads where the instances are.
+    /// Reads the placements of instances.
     pub(super) fn place_instances(&mut self) -> io::Result<()> {
         for instance in 1..self.instances.len() {
             if let Some(entry) = self.instances[instance].entry {
@@ -73,7 +73,7 @@ impl Reader<'_, '_> {
     fn locate(&mut self, faces: &[RawFace], node_picks: &[NodePick]) -> io::Result<Located> {
         let mut located = Located::default();
         located.of_picks = vec![Vec::new(); node_picks.len()];
-        // What is wanted of each instance: numbers of nodes, and picks of more than one.
+        // The requests for each instance: node numbers, and selections of more than one.
         let mut of_instances: Vec<(Vec<u32>, Vec<usize>)> = vec![Default::default(); self.instances.len()];
         for face in faces {
             of_instances[face.instance].0.extend_from_slice(face.nodes());
@@ -107,7 +107,7 @@ impl Reader<'_, '_> {
         Ok(located)
     }
 
-    /// An option that moves nodes in a way that is not read.
+    /// An option that moves nodes and is not read.
     fn mover(&self, instance: usize) -> Option<Span> {
         let mut makers = self.chain(Context::Instance(instance)).flat_map(|definitions| &definitions.makers);
         makers.find(|(name, _)| name == "SYSTEM").map(|(_, span)| *span)

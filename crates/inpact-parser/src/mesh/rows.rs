@@ -13,7 +13,7 @@ const PIECE: usize = 1 << 20;
 
 /// A source of the bytes of spans of a deck.
 pub trait RowBytes {
-    /// Hands the bytes of a span to `take`, in order, in pieces of any size.
+    /// Passes the bytes of a span to `take`, in order, in pieces of any size.
     ///
     /// # Errors
     ///
@@ -77,7 +77,7 @@ pub(super) fn number_rows(bytes: &mut dyn RowBytes, block: &Block) -> io::Result
     Ok(rows)
 }
 
-/// Hands every data line of a block to `take`, without its line end and with its place.
+/// Passes every data line of a block to `take`, without its line end and with its place.
 pub(super) fn data_lines(bytes: &mut dyn RowBytes, block: &Block, take: &mut dyn FnMut(&[u8], Span)) -> io::Result<()> {
     for rows in block.all_rows() {
         let mut offset = rows.start();

@@ -9,12 +9,12 @@ use crate::deck::items;
 use crate::number::read_float;
 use std::io;
 
-/// A section as far as geometry goes.
+/// The geometry of a section.
 #[derive(Debug, Clone)]
 pub(super) struct Section {
     elements: Selection,
     pub(super) thickness: Option<f64>,
-    /// From the middle to the nodes, as a share of the thickness, along the normal.
+    /// The offset of the nodes from the midsurface, as a fraction of the thickness, along the normal.
     pub(super) offset: f64,
 }
 

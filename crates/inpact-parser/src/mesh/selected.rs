@@ -25,7 +25,7 @@ impl Selection {
         self.options.extend_from_slice(&other.options);
     }
 
-    /// The number, where it is but one.
+    /// The number, if there is only one.
     pub(super) fn single(&self) -> Option<u32> {
         self.labels.single().filter(|_| self.options.is_empty())
     }
@@ -35,7 +35,7 @@ impl Selection {
         self.options.contains(&option) || self.labels.contains(label)
     }
 
-    /// Whether it can have something in this option.
+    /// Whether it can contain rows of this option.
     pub(super) fn may_touch(&self, option: Span) -> bool {
         !self.labels.is_empty() || self.options.contains(&option)
     }

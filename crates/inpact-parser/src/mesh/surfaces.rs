@@ -16,26 +16,26 @@ use inpact_geometry::{ElementSpace, Face, FaceLabel, NodeId, Surface, sheet_shif
 use std::collections::{BTreeMap, BTreeSet};
 use std::io;
 
-/// The picks of the rows of all surfaces.
+/// The selections of the rows of all surfaces.
 #[derive(Debug, Default)]
 pub(super) struct Picks {
     pub(super) faces: Vec<Pick>,
     pub(super) nodes: Vec<NodePick>,
 }
 
-/// The nodes that a row of *SURFACE, TYPE=NODE picks in one instance.
+/// The nodes selected by a row of *SURFACE, TYPE=NODE in one instance.
 #[derive(Debug)]
 pub(super) struct NodePick {
     pub(super) surface: usize,
     pub(super) instance: usize,
     pub(super) nodes: Selection,
-    /// The number, where it is but one.
+    /// The number, if there is only one.
     pub(super) number: Option<u32>,
     area: Option<f64>,
     span: Span,
 }
 
-/// A surface that was found: its keyword line and what it is made of.
+/// A located surface: its keyword line and its content.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Found {
     pub(super) span: Span,
@@ -116,7 +116,7 @@ impl<'deck> Reader<'deck, '_> {
             }
         };
         for (instance, elements) in self.select(Kind::Elements, context, first, span)? {
-            // Rows of one surface that pick the same face are one pick, of however many elements.
+            // Rows of one surface that select the same face are one selection, of any number of elements.
             let of_surface = picks.faces.iter_mut().rev().take_while(|pick| pick.surface == surface);
             match of_surface.into_iter().find(|pick| pick.instance == instance && pick.face == face) {
                 Some(pick) => pick.elements.add_all(&elements),
@@ -145,7 +145,7 @@ impl<'deck> Reader<'deck, '_> {
         Ok(())
     }
 
-    /// Makes a surface of what was found.
+    /// Builds a surface from the located parts.
     pub(super) fn surface<'a>(
         &mut self,
         reference: Reference,
@@ -163,7 +163,7 @@ impl<'deck> Reader<'deck, '_> {
         Ok(kind.map(|kind| MeshSurface { name: reference.name, span, kind }))
     }
 
-    /// The nodes of picks with the numbers that each has.
+    /// The nodes of selections with the numbers of each.
     fn node_surface<'a>(
         &mut self,
         picks: impl Iterator<Item = (&'a NodePick, &'a Vec<u32>)>,
@@ -188,7 +188,7 @@ impl<'deck> Reader<'deck, '_> {
         };
         let space = first.kind.space;
         let mut kept: Vec<&RawFace> = Vec::with_capacity(faces.len());
-        // The nodes of those kept, one after the other.
+        // The concatenated nodes of the kept faces.
         let mut nodes_of_kept: Vec<NodeId> = Vec::new();
         let mut without_node: Vec<(Span, String)> = Vec::new();
         let mut of_another_space: Vec<(Span, String)> = Vec::new();

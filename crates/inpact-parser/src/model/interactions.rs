@@ -95,7 +95,7 @@ impl Interactions {
         self.by_name.into_iter().map(|of| of.0)
     }
 
-    /// Changes each interaction; none may get another name.
+    /// Mutable access to each interaction, whose name must not change.
     pub(super) fn for_each_mut(&mut self, mut change: impl FnMut(&mut Interaction)) {
         for index in 0..self.by_name.len() {
             if let Some(of) = self.by_name.get_index_mut2(index) {
@@ -105,7 +105,7 @@ impl Interactions {
     }
 }
 
-/// Of several with one name the last is there, in the place of the first.
+/// Of several with the same name the last one is kept, in the place of the first.
 impl FromIterator<Interaction> for Interactions {
     fn from_iter<I: IntoIterator<Item = Interaction>>(interactions: I) -> Self {
         let mut all = Self::default();

@@ -16,14 +16,14 @@ pub struct Name {
     forms: Forms,
 }
 
-/// The canonical form, then the written one where that is another.
+/// The canonical form, then the written one where that differs.
 #[derive(Debug, Clone)]
 enum Forms {
     Short { canonical: u8, written: u8, bytes: [u8; SHORT] },
     Long { both: Arc<str>, canonical: u32 },
 }
 
-/// The most bytes of both forms of a name that is kept in place.
+/// The maximum total length of both forms of a name stored inline.
 const SHORT: usize = 21;
 
 impl Name {
@@ -101,11 +101,11 @@ impl Forms {
 
     fn long(written: Option<&str>, canonical: &str) -> Self {
         let both = written.map_or_else(|| canonical.into(), |written| format!("{canonical}{written}").into());
-        // No line of a deck is so long that its length does not fit.
+        // The length of any line of a deck fits.
         Self::Long { both, canonical: u32::try_from(canonical.len()).unwrap_or(u32::MAX) }
     }
 
-    /// Both forms; the written one is empty where it is the canonical one.
+    /// Both forms; the written one is empty where it equals the canonical one.
     fn both(&self) -> (&str, &str) {
         match self {
             Self::Short { canonical, written, bytes } => {
@@ -128,7 +128,7 @@ impl Forms {
     }
 }
 
-/// The text of bytes that were one.
+/// The text of bytes that came from a text.
 fn text(bytes: &[u8]) -> &str {
     std::str::from_utf8(bytes).unwrap_or_default()
 }

@@ -13,7 +13,7 @@ use crate::grammar::{Definition, Dialect, Grammar};
 use crate::number::float_text;
 use std::fmt::Write;
 
-/// The longest keyword line that is written in one piece (S-06 allows 256).
+/// The longest keyword line that is not split (S-06 allows 256).
 const KEYWORD_LINE: usize = 120;
 
 /// Writes the model as a deck: interactions first, then their uses, then the steps with their procedures.
@@ -39,7 +39,7 @@ pub fn print(model: &Model, grammar: &Grammar) -> Result<String, Error> {
     print_property_assignments(&mut out, &model.property_assignments);
     print_procedures(&mut out, &model.procedures, grammar);
     let named = named_in(grammar.dialect(), model.without_places());
-    // Names that the dialect does not tell apart were two.
+    // Two names that the dialect does not distinguish.
     if named.interactions.len() < model.interactions.len() {
         return Err(Error::unprintable("the list of interactions"));
     }
@@ -50,7 +50,7 @@ pub fn print(model: &Model, grammar: &Grammar) -> Result<String, Error> {
     }
 }
 
-/// The model with its names as a dialect compares them: JSON does not say of which dialect they are.
+/// The model with its names as a dialect compares them: JSON does not record the dialect.
 pub(crate) fn named_in(dialect: Dialect, mut model: Model) -> Model {
     let rename = |name: &mut Name| *name = Name::in_dialect(name.written(), dialect);
     let interactions = std::mem::take(&mut model.interactions).into_values();
@@ -107,7 +107,7 @@ fn print_parameters(out: &mut String, definitions: &[expression::Definition]) {
     }
 }
 
-/// The interaction with its sub-options; in a deck with an Explicit step its rows are properties alone (K-03).
+/// The interaction with its sub-options; in a deck with an Explicit step its rows are only properties (K-03).
 fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_step: bool, grammar: &Grammar) {
     let name =
         GivenParameter { name: "NAME".into(), value: Some(interaction.name.written().into()), span: interaction.span };
@@ -115,7 +115,7 @@ fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_s
     let name = named.then_some(&name);
     let parameters = match grammar.dialect() {
         Dialect::Abaqus => with_meant(name, &interaction.parameters),
-        // The first of several names counts.
+        // The first of several names applies.
         Dialect::Calculix => name.into_iter().chain(&interaction.parameters).collect(),
     };
     print_keyword(out, "SURFACE INTERACTION", parameters);
@@ -151,7 +151,7 @@ fn print_interaction(out: &mut String, interaction: &Interaction, has_explicit_s
     }
 }
 
-/// A parameter that counts before the others; after them where they have it too, since the last setting counts.
+/// A parameter that precedes the others; after them where they contain it too, since the last setting applies.
 fn with_meant<'a>(meant: Option<&'a GivenParameter>, others: &'a [GivenParameter]) -> Vec<&'a GivenParameter> {
     let mut all: Vec<_> = others.iter().collect();
     if let Some(meant) = meant {
@@ -315,7 +315,7 @@ fn print_keyword<'a>(out: &mut String, keyword: &str, parameters: impl IntoItera
             None => parameter.name.to_string(),
         };
         line.push(',');
-        // A flag alone on a continuation line is taken for data by some readers, a value is not (S-19).
+        // A flag alone on a continuation line is read as data by some readers, a value is not (S-19).
         if line.len() + text.len() > KEYWORD_LINE && parameter.value.is_some() && !text.starts_with('*') {
             let _ = writeln!(out, "{line}");
             line.clear();

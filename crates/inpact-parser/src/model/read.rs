@@ -66,11 +66,11 @@ struct Reader<'a> {
     problems: Vec<Problem>,
     /// The *SURFACE INTERACTION whose block is open.
     interaction: Option<Interaction>,
-    /// The names of the columns of tables so far, each list once.
+    /// The interned lists of column names of tables.
     columns: Vec<Arc<[String]>>,
-    /// The names of keywords and parameters so far, as the grammar has them.
+    /// The interned names of keywords and parameters.
     names: HashSet<SharedText>,
-    /// The last keyword that is no sub-option of an interaction.
+    /// The last keyword that is not a sub-option of an interaction.
     parent: Option<KeywordId>,
     /// The keyword line that closed the last interaction.
     closed_by: Option<Span>,
@@ -93,7 +93,7 @@ fn is_explicit_procedure(block: &Block, grammar: &Grammar) -> bool {
 
 impl<'a> Reader<'a> {
     fn read_block(&mut self, block: &'a Block) {
-        // An unknown keyword leaves an interaction open: it is more often a typing error in a sub-option than the end of the block.
+        // An unknown keyword leaves an interaction open: it is more often a typo in a sub-option than the end of the block.
         let Some(keyword) = &block.keyword else { return };
         let Some(id) = keyword.id() else {
             if is_likely_interaction(self.deck.text(keyword.name())) {
@@ -171,7 +171,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// Whether an unknown keyword was likely meant to begin the next *SURFACE INTERACTION, whose sub-options are not the last one's.
+/// Whether an unknown keyword is probably a misspelt *SURFACE INTERACTION, whose sub-options do not belong to the previous one.
 fn is_likely_interaction(text: &[u8]) -> bool {
     let letters = text.iter().filter(|byte| !byte.is_ascii_whitespace()).map(u8::to_ascii_uppercase);
     let letters: Vec<u8> = letters.take(40).collect();

@@ -6,7 +6,7 @@ use crate::span::Span;
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct RowPlaces {
     rows: Vec<RowPlace>,
-    /// Rows in another file than the keyword line, before it, or more than 4 GiB behind it.
+    /// Rows in another file than the keyword line, before it, or more than 4 GiB after it.
     elsewhere: Option<Box<Elsewhere>>,
 }
 
@@ -36,7 +36,7 @@ impl RowPlaces {
         places
     }
 
-    /// Gives back the room of rows that did not come.
+    /// Releases unused capacity.
     pub(super) fn shrink(&mut self) {
         self.rows.shrink_to_fit();
     }
@@ -50,7 +50,7 @@ impl RowPlaces {
         self.rows.push(place);
     }
 
-    /// Makes the last row longer, up to the end of `line`, where it begins in the same file.
+    /// Extends the last row up to the end of `line`, where it begins in the same file.
     pub(super) fn extend_last(&mut self, line: Span, keyword: Span) {
         let last = self.rows.len().checked_sub(1).and_then(|last| self.get(last, keyword));
         if let Some(row) = last.filter(|row| row.source() == line.source()) {
@@ -77,7 +77,7 @@ impl RowPlaces {
         }
         let spans = &mut self.elsewhere.get_or_insert_default().spans;
         spans.push(span);
-        // So many rows in other files than the table is in do not fit into memory.
+        // More rows in other files than that of the table do not fit into memory.
         let length = u32::try_from(spans.len() - 1).unwrap_or(u32::MAX);
         RowPlace { offset: RowPlace::ELSEWHERE, length }
     }

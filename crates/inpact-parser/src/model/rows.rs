@@ -13,7 +13,7 @@ use crate::problem::{LongNumber, Problem, ProblemKind};
 use crate::span::Span;
 use std::ops::Range;
 
-/// Up to so many counted columns a table has them all, written or not.
+/// Up to this number of counted columns a table has them all, written or not.
 const ALWAYS_THERE: usize = 32;
 
 /// The number of the `count` counted columns that the rows of a block can reach; `lead` is the layout of those before them.
@@ -100,7 +100,7 @@ pub(super) fn read_table(
     }
 }
 
-/// A table in the making.
+/// A table under construction.
 struct RowReader<'a> {
     deck: &'a Deck,
     keyword: Span,
@@ -115,10 +115,10 @@ struct RowReader<'a> {
 }
 
 impl RowReader<'_> {
-    /// Makes room for the rows that `text` may hold, so that a table does not grow step by step.
+    /// Reserves memory for the rows that `text` may contain, so that a table does not grow step by step.
     fn reserve(&mut self, text: &[u8]) {
         let rows = memchr::memchr_iter(b'\n', text).count() / self.lines + 1;
-        // No more than the text could spell out: rows of empty items are made as they come.
+        // No more than the text could contain: rows of empty items are added as they come.
         let most = text.len() / 2;
         self.places.reserve_exact(rows.min(most));
         let width = self.layout.columns.len();
@@ -129,7 +129,7 @@ impl RowReader<'_> {
         self.problems.push(Problem { kind, span, keyword: self.keyword });
     }
 
-    /// Takes line number `line_of_row` of a row; gives the number of the next line, 0 when the row is complete.
+    /// Adds line number `line_of_row` of a row; returns the number of the next line, 0 when the row is complete.
     fn take_line(&mut self, line: &DataLine<'_>, line_of_row: usize) -> usize {
         if self.lines == 1 && self.take_plain_row(line) {
             return 0;
@@ -158,13 +158,13 @@ impl RowReader<'_> {
         }
         match line_of_row {
             0 => self.places.push(content, self.keyword),
-            // A row that begins in one file and ends in another is found where it begins.
+            // A row that begins in one file and ends in another is located where it begins.
             _ => self.places.extend_last(content, self.keyword),
         }
         if whole_row || line_of_row + 1 == self.lines { 0 } else { line_of_row + 1 }
     }
 
-    /// Takes a row of numbers alone, if it is one that fits on a line.
+    /// Adds a row of numbers only, if it fits on a line.
     fn take_plain_row(&mut self, line: &DataLine<'_>) -> bool {
         let mut cells = [0.0; MOST_CELLS];
         let Some(row) = plain_row(line.text, 0, &mut cells) else { return false };
@@ -221,7 +221,7 @@ impl RowReader<'_> {
         value
     }
 
-    /// Completes a row that the block leaves unfinished (K-55).
+    /// Completes a row that is unfinished at the end of the block (K-55).
     fn finish(&mut self, line_of_row: usize) {
         if line_of_row == 0 {
             return;
@@ -269,7 +269,7 @@ pub(super) fn substitution_problem(
     Some(Problem { kind, span, keyword })
 }
 
-/// The number that an item of a column is in a dialect, and what is to be said of it.
+/// The number of an item of a column in a dialect, and its problem, if any.
 pub(super) fn read_number(
     text: &[u8],
     item: Span,
@@ -299,7 +299,7 @@ pub(super) fn read_number(
     }
 }
 
-/// Whether digits that ccx does not read (CX-05) change nothing that anybody meant: 15 digits are as many as an f64 tells apart.
+/// Whether digits that ccx does not read (CX-05) are insignificant: an f64 distinguishes 15 digits.
 fn differs_by_rounding(cut: f64, whole: f64) -> bool {
     (cut - whole).abs() <= 1e-15 * whole.abs()
 }
@@ -311,7 +311,7 @@ fn items_on(layout: &Layout, line: usize) -> usize {
     room.min(layout.columns.len().saturating_sub(before))
 }
 
-/// The number of items of a line, empty ones at its end not counted (S-33).
+/// The number of items of a line, except empty ones at its end (S-33).
 fn count_items(line: &DataLine<'_>) -> usize {
     let given = line.items().enumerate().filter(|(_, item)| !item.is_empty());
     given.last().map_or(0, |(index, _)| index + 1)

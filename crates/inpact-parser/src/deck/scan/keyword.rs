@@ -10,7 +10,7 @@ use std::num::NonZeroU32;
 /// Lines after a comma at the end of a keyword line that do not continue it (S-19).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum AfterComma {
-    /// The comma is answered by nothing.
+    /// Nothing continues the comma.
     NoParameters,
     /// Names that may be flags of a keyword whose parameters are not all known here, or that another file may go on with.
     ///

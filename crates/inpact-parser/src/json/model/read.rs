@@ -64,7 +64,7 @@ fn dialect_of<'key>(keys: &(impl Iterator<Item = &'key str> + Clone)) -> Dialect
     if is_of_calculix { Dialect::Calculix } else { Dialect::Abaqus }
 }
 
-/// Executes the definitions again; what the JSON says of their values must agree.
+/// Executes the definitions again; the values in the JSON must agree.
 ///
 /// The values are those of some release: where they are not those of the newest, they may be those of an older one (S-60).
 fn parameters(documents: &[ParameterDocument]) -> Result<Parameters, Error> {
@@ -84,7 +84,7 @@ fn parameters_of(documents: &[ParameterDocument], release: Release) -> Result<Pa
             return Err(Error::json(format!("{path}.expression"), problem.message.clone()));
         }
         let again = parameters.definitions().get(index).map(ParameterDocument::from);
-        // Without a value there is nothing to agree with: the statement had a problem where it was read, which may be
+        // Without a value there is nothing to compare: the statement had a problem where it was read, which may be
         // a byte that JSON cannot show.
         let agrees = document.value.is_none() || again.is_some_and(|again| again.value == document.value);
         if !agrees {

@@ -75,7 +75,7 @@ fn text_documents(rows: &TextRows) -> Vec<Vec<String>> {
 impl From<&ElectricalConductance> for ElectricalDocument {
     fn from(law: &ElectricalConductance) -> Self {
         let table = |table: Option<&Table>| {
-            // With USER the tables are void; they are shown only where the deck has them all the same (C003).
+            // With USER the tables are void; they are shown only where the deck has them nevertheless (C003).
             (law.user.is_none() || table.is_some()).then(|| table.map(Into::into))
         };
         Self {

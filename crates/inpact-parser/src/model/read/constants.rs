@@ -9,7 +9,7 @@ use crate::model::rows::read_number;
 use crate::problem::Problem;
 
 impl Reader<'_> {
-    /// Reports the items that ccx would read as numbers and cannot.
+    /// Reports items that ccx reads as numbers and that are not.
     pub(super) fn check_constants(&mut self, option: Entry<'_>) {
         let dialect = self.grammar.dialect();
         if dialect != Dialect::Calculix || option.definition.rows() != RowShape::Items {

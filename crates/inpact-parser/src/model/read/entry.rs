@@ -10,7 +10,7 @@ use crate::number::{read_float, read_integer};
 use crate::span::Span;
 use std::sync::Arc;
 
-/// Of so many kinds of tables the names of the columns are shared.
+/// The number of kinds of tables whose column names are shared.
 const MOST_KINDS: usize = 64;
 
 /// A block whose keyword the grammar defines.
@@ -24,7 +24,7 @@ pub(super) struct Entry<'a> {
 }
 
 impl Entry<'_> {
-    /// The last setting of a parameter counts.
+    /// The last setting of a parameter applies.
     pub(super) fn parameter(self, name: &str) -> Option<Parameter> {
         self.keyword.given(name, self.definition)
     }
@@ -62,7 +62,7 @@ impl Reader<'_> {
         }
         match self.columns.iter().find(|columns| **columns == table.columns) {
             Some(columns) => table.columns = Arc::clone(columns),
-            // There are few kinds of tables, but for those that somebody makes up.
+            // There are few kinds of tables, except invented ones.
             None if self.columns.len() < MOST_KINDS => self.columns.push(Arc::clone(&table.columns)),
             None => {}
         }
@@ -109,7 +109,7 @@ impl Reader<'_> {
         read_float(self.value_of(option, name)?.as_bytes()).ok()
     }
 
-    /// A name of the grammar, kept once.
+    /// An interned name of the grammar.
     fn shared(&mut self, name: &str) -> SharedText {
         if let Some(shared) = self.names.get(name) {
             return shared.clone();
@@ -131,7 +131,7 @@ impl Reader<'_> {
         given.collect()
     }
 
-    /// The name that a value or an item is in the dialect.
+    /// The name of a value or an item in the dialect.
     pub(super) fn name(&self, span: Span) -> Name {
         Name::in_dialect(&self.value_text(span), self.grammar.dialect())
     }
@@ -150,7 +150,7 @@ fn on_one_line(text: &str) -> String {
     lines.filter(|line| !line.starts_with("**")).collect::<Vec<_>>().join(" ")
 }
 
-/// Takes the last parameter of that name out of the list.
+/// Removes the last parameter of that name from the list.
 pub(super) fn take(parameters: &mut Vec<GivenParameter>, name: &str) -> Option<GivenParameter> {
     let found = parameters.iter().rposition(|parameter| parameter.name == name)?;
     Some(parameters.remove(found))

@@ -20,13 +20,13 @@ impl Reader<'_> {
         self.check_level(option);
         self.parent = Some(option.id);
         let mut parameters = self.given_parameters(option);
-        // Of several names the first counts for CalculiX (surfaceinteractions.f), here the last.
+        // Of several names CalculiX uses the first (surfaceinteractions.f), Abaqus the last.
         let named = match self.grammar.dialect() {
             Dialect::Abaqus => option.parameter("NAME"),
             Dialect::Calculix => option.first_parameter("NAME"),
         };
         parameters.retain(|parameter| named.is_none_or(|named| named.span() != parameter.span));
-        // Without a name it governs nothing that could name it, yet its tables are to be judged (K006).
+        // Without a name nothing can refer to it, yet its tables are checked (K006).
         let name = named.and_then(|named| named.value).map(|value| self.value_text(value)).unwrap_or_default();
         let name = Name::in_dialect(&name, self.grammar.dialect());
         let mut interaction = Interaction::new(name, option.keyword.visible_span(self.deck));
@@ -112,7 +112,7 @@ impl Reader<'_> {
     }
 
     pub(super) fn leave_interaction(&mut self, id: KeywordId, keyword: &KeywordLine) {
-        // CalculiX gathers the sub-options of an interaction anywhere (CX-09).
+        // CalculiX collects the sub-options of an interaction anywhere (CX-09).
         if self.grammar.dialect() == Dialect::Calculix {
             self.parent = Some(id);
             return;
@@ -162,7 +162,7 @@ impl Reader<'_> {
         } else {
             false
         };
-        // A misplaced option is read all the same, into a block of its own that is set aside.
+        // A misplaced option is still read, into a separate block that is set aside.
         let mut interaction = if placed { self.interaction.take() } else { None }
             .unwrap_or_else(|| Interaction::new(Name::new(""), option.keyword.span));
         match OptionKind::of(option.name) {
@@ -237,7 +237,7 @@ impl Reader<'_> {
     pub(super) fn read_heat_generation(&mut self, option: Entry<'_>, interaction: &mut Interaction) {
         let span = option.keyword.visible_span(self.deck);
         let table = self.table(option);
-        // Of several rows Abaqus reads the first; for CalculiX the last counts (CX-10).
+        // Of several rows Abaqus reads the first, CalculiX the last (CX-10).
         let rows = table.as_ref().map_or(0, Table::row_count);
         let counting = match self.grammar.dialect() {
             Dialect::Abaqus => 0,
@@ -253,7 +253,7 @@ impl Reader<'_> {
         }
         let slip_rate = match self.grammar.dialect() {
             Dialect::Abaqus => None,
-            // An item that is not there is 0 (CX-10).
+            // A missing item is 0 (CX-10).
             Dialect::Calculix => Some(values.get(2).copied().unwrap_or_default()),
         };
         let texts = table.iter().flat_map(|table| {
