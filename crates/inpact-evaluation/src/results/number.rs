@@ -21,10 +21,29 @@ pub fn push_number(text: &mut Vec<u8>, value: f64) {
     if size != 0.0 && size < 1e-4 {
         push_small(text, printed);
     } else if size < 1e16 {
-        text.extend_from_slice(printed.strip_suffix(b".0").unwrap_or(printed));
+        push_printed(text, printed.strip_suffix(b".0").unwrap_or(printed));
     } else {
         // An exponent needs no sign.
         text.extend(printed.iter().filter(|byte| **byte != b'+'));
+    }
+}
+
+/// Adds a printed number; most have 8 to 24 letters, which are copied as blocks of 8 or 16 that overlap: no call for a few bytes.
+#[inline]
+fn push_printed(text: &mut Vec<u8>, printed: &[u8]) {
+    const MOST: usize = 24;
+    let (start, length) = (text.len(), printed.len());
+    if let (8..=MOST, Some(first), Some(last)) = (length, printed.first_chunk::<8>(), printed.last_chunk::<8>()) {
+        text.extend_from_slice(&[0; MOST]);
+        let to = &mut text[start..start + MOST];
+        to[..8].copy_from_slice(first);
+        if let Some(first) = printed.first_chunk::<16>() {
+            to[..16].copy_from_slice(first);
+        }
+        to[length - 8..length].copy_from_slice(last);
+        text.truncate(start + length);
+    } else {
+        text.extend_from_slice(printed);
     }
 }
 

@@ -13,6 +13,7 @@ use super::output::Output;
 use crate::nodes::{Batch, Column};
 use crate::spread;
 use std::io::{self, Write};
+use std::ops::Range;
 
 /// Writes a result table, or a node table, to a stream.
 pub struct ResultWriter<'a> {
@@ -185,8 +186,9 @@ impl<'a> CsvWriter<'a> {
         spread::for_each(self.blocks[..blocks].iter_mut().enumerate(), |(block, text)| {
             let first = block * ROWS_OF_A_BLOCK;
             text.clear();
+            let mut printed = vec![Printed::default(); values.numbers.len()];
             for row in first..batch.rows.min(first + ROWS_OF_A_BLOCK) {
-                push_row(text, columns, batch, values, row);
+                push_row(text, columns, batch, values, (row, &mut printed));
             }
         });
         for text in &self.blocks[..blocks] {
@@ -196,8 +198,21 @@ impl<'a> CsvWriter<'a> {
     }
 }
 
-/// Adds a row.
-fn push_row(text: &mut Vec<u8>, columns: &[ResultColumn], batch: &Batch, values: Values<'_>, row: usize) {
+/// The number that a column of a block had last, and where it is printed in the text of the block.
+#[derive(Debug, Clone, Default)]
+struct Printed {
+    bits: u64,
+    place: Range<usize>,
+}
+
+/// Adds a row; `printed` are the numbers of the columns so far.
+fn push_row(
+    text: &mut Vec<u8>,
+    columns: &[ResultColumn],
+    batch: &Batch,
+    values: Values<'_>,
+    (row, printed): (usize, &mut [Printed]),
+) {
     let start = text.len();
     for (index, column) in columns.iter().enumerate() {
         if index > 0 {
@@ -207,7 +222,14 @@ fn push_row(text: &mut Vec<u8>, columns: &[ResultColumn], batch: &Batch, values:
             ResultColumn::Label(label) => push_text(text, batch.labels[*label].get(row)),
             ResultColumn::Number(number) => {
                 if let Some(value) = values.numbers[*number].get(row) {
-                    push_number(text, value);
+                    let (start, bits) = (text.len(), value.to_bits());
+                    // Weights are the same in all rows, and with one half so is the heat into either surface: what stands above or to the left is copied.
+                    let known = [*number, number.saturating_sub(1)].map(|column| &printed[column]);
+                    match known.into_iter().find(|known| known.bits == bits && !known.place.is_empty()) {
+                        Some(known) => text.extend_from_within(known.place.clone()),
+                        None => push_number(text, value),
+                    }
+                    printed[*number] = Printed { bits, place: start..text.len() };
                 }
             }
             ResultColumn::Status(heading) => {
