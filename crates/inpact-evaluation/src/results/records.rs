@@ -4,7 +4,7 @@ use super::batch::ResultBatch;
 use super::columnar::{key_array, number_array};
 use super::output::Output;
 use super::parquet::of_arrow;
-use super::status_words::{StatusRoom, buffers};
+use super::status_words::{StatusRoom, words};
 use crate::arrow::array::{ArrayRef, Float64Array, RecordBatch};
 use crate::arrow::buffer::{Buffer, NullBuffer, ScalarBuffer};
 use crate::arrow::datatypes::{DataType, Field, Schema, SchemaRef};
@@ -25,7 +25,7 @@ pub struct ResultRecords {
 #[derive(Debug, Default)]
 struct Given {
     numbers: Vec<Buffer>,
-    statuses: Vec<(Buffer, Buffer)>,
+    words: Vec<Buffer>,
 }
 
 impl ResultRecords {
@@ -43,14 +43,14 @@ impl ResultRecords {
         for (key, label) in self.keys.iter().zip(&batch.labels) {
             arrays.push(key_array(*key, label, batch)?);
         }
-        let Given { numbers, statuses: words } = std::mem::take(&mut self.given);
+        let Given { numbers, words: room_for_words } = std::mem::take(&mut self.given);
         let mut room = numbers.into_iter().filter_map(|buffer| buffer.into_vec::<f64>().ok());
-        let mut room_for_words = words.into_iter().map(|(ends, bytes)| StatusRoom::of(ends, bytes));
+        let mut room_for_words = room_for_words.into_iter().map(StatusRoom::of);
         let mut number = 0;
         for output in &self.outputs {
             if let Some(statuses) = results.statuses(*output) {
                 let array = room_for_words.next().unwrap_or_default().array(statuses);
-                self.given.statuses.extend(buffers(&array));
+                self.given.words.extend(words(&array));
                 arrays.push(array);
                 continue;
             }

@@ -310,9 +310,12 @@ fn all_moderate(column: &[f64]) -> bool {
 
 /// Sets the statuses of rows within all tables.
 pub(super) fn set_contact(states: &[Option<ContactState>], rows: Range<usize>, results: &mut ResultBatch) {
+    let [open, closed] = [ContactState::Open, ContactState::Closed].map(|state| (Some(state), contact_status(state)));
     let statuses = &mut results.status[rows.clone()];
+    // Compared and not matched: a table of the cases would keep the loop from its vectors.
     for (status, state) in statuses.iter_mut().zip(states) {
-        *status = state.and_then(contact_status);
+        let apart = if *state == open.0 { open.1 } else { None };
+        *status = if *state == closed.0 { closed.1 } else { apart };
     }
     results.status_by_law.electrical[rows].copy_from_slice(statuses);
 }
