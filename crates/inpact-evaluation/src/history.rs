@@ -11,7 +11,8 @@
 mod steps;
 mod thermal;
 
-pub(crate) use steps::{ElectricalSteps, Step};
+pub(crate) use steps::StepColumns;
+use steps::{ElectricalSteps, Step};
 pub use thermal::{FlowHistory, ThermalHistory};
 
 use crate::law::contact::{Clearance, ClearanceRate, PotentialJump};
@@ -120,14 +121,24 @@ impl ElectricalHistory {
         self.heat.add(Amount::new(flow.heat.total), increment.duration, area);
     }
 
-    /// [`Self::finish`] for steps computed by column.
+    /// [`Self::finish`] for steps computed by column, 0 in a row without a duration; every row has had an area.
     #[inline]
-    pub(crate) fn finish_steps(&mut self, increment: &ElectricalIncrement, steps: &ElectricalSteps) {
-        if increment.duration.is_some() {
-            self.current.add_steps(steps.current);
-            self.current.add_steps(steps.rest);
-            self.heat.add_steps(steps.heat);
-        }
+    pub(crate) fn add_steps(&mut self, steps: &ElectricalSteps) {
+        self.current.add_steps(steps.current);
+        self.current.add_steps(steps.rest);
+        self.heat.add_steps(steps.heat);
+    }
+
+    /// Whether a row had no area.
+    pub(crate) fn lacks_area(&self) -> bool {
+        self.current.lacks_area
+    }
+
+    /// The integrals where every row has had an area: ECDT, ECDTA, SJDT, SJDTA.
+    #[inline]
+    pub(crate) fn integrals(&self) -> [f64; 4] {
+        let (current, heat) = (&self.current, &self.heat);
+        [&current.per_unit, &current.whole, &heat.per_unit, &heat.whole].map(UnboundedSum::total)
     }
 
     /// Forgets the previous row, as [`Self::begin`] must for the first row of another node; the sums stay.

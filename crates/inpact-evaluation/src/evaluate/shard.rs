@@ -4,7 +4,7 @@ use super::found::Found;
 use super::laws::{InteractionLaws, Laws};
 use crate::history::{ElectricalHistory, PoreHistory, ThermalHistory};
 use crate::law::electrical::columns::increments::{Chunk, Increments};
-use crate::nodes::{HistoryOrder, HistorySlot, NodeIndex};
+use crate::nodes::{HistoryOrder, HistorySlot, NodeIndex, NodeLabel, NodeLabels};
 use crate::plan::Plan;
 use crate::results::ResultBatch;
 use crate::rows::{Part, Row, Tally};
@@ -14,6 +14,9 @@ use crate::rows::{Part, Row, Tally};
 pub(super) struct Shard {
     nodes: NodeIndex,
     histories: Vec<NodeHistory>,
+    /// The chunk of rows that is gone through, and the slots of its nodes.
+    chunk: Chunk,
+    slots: Vec<HistorySlot>,
     pub(super) tally: Tally,
 }
 
@@ -51,19 +54,22 @@ pub(super) struct ShardResults {
 
 impl<'a> Waiting<'a> {
     pub(super) fn new(laws: &Laws, part: Part<'a>, found: Found, shards: usize) -> Self {
-        let shard = |row| {
-            let label = laws.node.map_or(&[][..], |node| part.batch().labels[node].get(row));
-            shard_of(part.interaction, label, shards)
-        };
-        let shards = (0..part.rows()).map(shard).collect();
+        let nodes = laws.node.map(|node| NodeLabels::of(&part.batch().labels[node]));
+        let label = |row| nodes.as_ref().map_or(NodeLabel::Text(b""), |nodes| nodes.get(row));
+        let shards = (0..part.rows()).map(|row| shard_of(part.interaction, label(row), shards)).collect();
+        drop(nodes);
         Self { part, found, shards }
     }
 }
 
-/// The shard of a node, the same for all of its rows. Blanks around a label are ignored.
-fn shard_of(interaction: usize, label: &[u8], shards: usize) -> u32 {
-    let step = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-    let hash = label.trim_ascii().iter().fold(0xcbf2_9ce4_8422_2325 ^ interaction as u64, step);
+/// The shard of a node, the same for all of its rows.
+fn shard_of(interaction: usize, label: NodeLabel<'_>, shards: usize) -> u32 {
+    let step = |hash: u64, part: u64| (hash ^ part).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    let begun = step(0, interaction as u64);
+    let hash = match label {
+        NodeLabel::Number(number) => step(begun, number.cast_unsigned()),
+        NodeLabel::Text(text) => text.iter().fold(begun, |hash, byte| step(hash, u64::from(*byte))),
+    };
     // The upper half of the hash is mixed better; the remainder fits into 32 bits.
     ((hash >> 32) % shards as u64) as u32
 }
@@ -100,7 +106,7 @@ impl Shard {
             HistoryOrder::ByNode => NodeIndex::by_node(),
             HistoryOrder::Interleaved => NodeIndex::default(),
         };
-        Self { nodes, histories: Vec::new(), tally }
+        Self { nodes, histories: Vec::new(), chunk: Chunk::default(), slots: Vec::new(), tally }
     }
 
     /// Evaluates the pending rows of shard `number`, batch by batch.
@@ -111,7 +117,6 @@ impl Shard {
                 let Some(of) = &laws.interactions[part.interaction] else { continue };
                 let own: Vec<usize> = (0..part.rows()).filter(|row| shards[*row] as usize == number).collect();
                 let mut results = ResultBatch::default();
-                results.reset(own.len(), laws.result_columns);
                 self.evaluate_rows(laws, (part, of), found, &own, &mut results);
                 let number = |row: &usize| match &part.numbers {
                     Some(numbers) => Some(numbers[*row]),
@@ -130,7 +135,7 @@ impl Shard {
         self.evaluate_rows(laws, (part, of), found, &all, results);
     }
 
-    /// Evaluates some rows of a part, one result each.
+    /// Evaluates some rows of a part, which ascend, one result each.
     fn evaluate_rows(
         &mut self,
         laws: &Laws,
@@ -139,56 +144,67 @@ impl Shard {
         rows: &[usize],
         results: &mut ResultBatch,
     ) {
+        let nodes = laws.node.map(|node| NodeLabels::of(&part.batch().labels[node]));
         let electrical = of.electrical.as_ref();
         let increments = electrical.and_then(|law| law.increments(part, found.conductances.as_ref()));
-        if let Some((increments, node)) = increments.zip(laws.node) {
+        if let Some((increments, nodes)) = increments.zip(nodes.as_ref()) {
+            let filled = increments.filled();
+            results.reset_statuses(rows.len());
+            results.shape(rows.len(), laws.result_columns, |slot| filled.contains(&Some(slot)));
             for (number, some) in rows.chunks(Increments::CHUNK).enumerate() {
-                let chunk = increments.chunk(some, number * Increments::CHUNK);
-                self.evaluate_chunk(laws, (part, of), found, (&increments, chunk, some, node), results);
+                increments.take(some, number * Increments::CHUNK, &mut self.chunk);
+                self.evaluate_chunk(laws, (part, of), found, (&increments, nodes, some), results);
             }
             return increments.end(rows, results, &mut self.tally.interactions[part.interaction]);
         }
+        results.reset(rows.len(), laws.result_columns);
         for (to, index) in rows.iter().enumerate() {
             if let Some(row) = part.row(*index, to) {
-                self.evaluate_row(laws, of, row, found, results);
+                let node = nodes.as_ref().filter(|_| row.time.is_some()).map(|nodes| nodes.get(*index));
+                self.evaluate_row(laws, of, (row, node), found, results);
             }
         }
     }
 
-    /// The same where each row ends an increment of the electrical law, which is evaluated by column.
+    /// Evaluates the rows of the chunk, each of which ends an increment of the electrical law.
     fn evaluate_chunk(
         &mut self,
         laws: &Laws,
         (part, of): (&Part<'_>, &InteractionLaws),
         found: &Found,
-        (increments, mut chunk, rows, node): (&Increments<'_, '_>, Chunk<'_>, &[usize], usize),
+        (increments, nodes, rows): (&Increments<'_, '_>, &NodeLabels<'_>, &[usize]),
         results: &mut ResultBatch,
     ) {
-        let (labels, interaction) = (&part.batch().labels[node], part.interaction);
-        let mut slots: Vec<HistorySlot> = Vec::with_capacity(rows.len());
-        for index in rows {
-            let slot = self.nodes.enter(interaction, labels.get(*index));
-            if slot.number == self.histories.len() {
-                self.histories.push(NodeHistory::of(laws));
-            } else if slot.is_first {
-                self.histories[slot.number].electrical.restart();
+        let Self { nodes: index, histories, chunk, slots, tally } = self;
+        slots.clear();
+        for row in rows {
+            let slot = index.enter(part.interaction, nodes.get(*row));
+            if slot.number == histories.len() {
+                histories.push(NodeHistory::of(laws));
             }
-            chunk.begin(&mut self.histories[slot.number].electrical);
             slots.push(slot);
         }
-        increments.evaluate(&mut chunk, results);
-        let tally = &mut self.tally.interactions[interaction];
-        let is_alone = of.thermal.is_none() && of.pore.is_none();
-        if is_alone && increments.is_uniform(&chunk) {
-            for (at, slot) in slots.iter().enumerate() {
-                let history = &mut entered(&mut self.histories, *slot).electrical;
-                increments.finish_steps(&chunk, at, history, results, tally);
+        // A look at each history that waits for nothing has many of them fetched at once, where they are not in the cache.
+        chunk.look_at(slots.iter().map(|slot| &histories[slot.number].electrical));
+        for slot in &*slots {
+            let history = &mut histories[slot.number].electrical;
+            if slot.is_first {
+                history.restart();
             }
-            return increments.set_statuses(&chunk, results);
+            chunk.begin(history);
+        }
+        increments.evaluate(chunk, results);
+        let (tally, faults) = (&mut tally.interactions[part.interaction], &mut tally.user_faults);
+        let is_alone = of.thermal.is_none() && of.pore.is_none();
+        if is_alone && chunk.is_uniform() {
+            for (at, slot) in slots.iter().enumerate() {
+                chunk.add_steps(at, &mut entered(histories, *slot).electrical);
+            }
+            return increments.end_steps(chunk, rows, results, tally);
         }
         for (at, index) in rows.iter().enumerate() {
-            let history = entered(&mut self.histories, slots[at]);
-            let (outcome, heat) = increments.finish(&chunk, at, &mut history.electrical, results, tally);
+            let history = entered(histories, slots[at]);
+            let (outcome, heat) = increments.finish(chunk, (at, *index), &mut history.electrical, results, tally);
             let to = chunk.result_of(at);
             let row = if is_alone { None } else { part.row(*index, to) };
             let thermal = of.thermal.as_ref().zip(row).map(|(law, row)| {
@@ -198,7 +214,7 @@ impl Shard {
             let pore = of.pore.as_ref().zip(row).map(|(law, row)| {
                 law.row(row, &found.permeabilities, Some(&mut history.others(laws).pore), results, tally)
             });
-            tally.finish_row([Some(outcome), thermal, pore], to, results, &mut self.tally.user_faults);
+            tally.finish_row([Some(outcome), thermal, pore], to, results, faults);
         }
     }
 
@@ -206,23 +222,20 @@ impl Shard {
         &mut self,
         laws: &Laws,
         of: &InteractionLaws,
-        row: Row<'_, '_>,
+        (row, node): (Row<'_, '_>, Option<NodeLabel<'_>>),
         found: &Found,
         results: &mut ResultBatch,
     ) {
         let interaction = row.part.interaction;
-        let mut history = match laws.node.filter(|_| row.time.is_some()) {
-            Some(node) => {
-                let slot = self.nodes.enter(interaction, row.part.batch().labels[node].get(row.index));
-                if slot.number == self.histories.len() {
-                    self.histories.push(NodeHistory::of(laws));
-                } else if slot.is_first {
-                    self.histories[slot.number] = NodeHistory::of(laws);
-                }
-                Some(&mut self.histories[slot.number])
+        let mut history = node.map(|node| {
+            let slot = self.nodes.enter(interaction, node);
+            if slot.number == self.histories.len() {
+                self.histories.push(NodeHistory::of(laws));
+            } else if slot.is_first {
+                self.histories[slot.number] = NodeHistory::of(laws);
             }
-            None => None,
-        };
+            &mut self.histories[slot.number]
+        });
         let tally = &mut self.tally.interactions[interaction];
         let mut heat = None;
         let electrical = of.electrical.as_ref().map(|law| {

@@ -28,6 +28,14 @@ impl<'a> Worker<'a> {
 
     /// The rows of a batch by the interaction that governs them, those that have laws; in the order of the rows where a user's routine sees them.
     pub(super) fn parts<'b>(&mut self, laws: &Laws, batch: &'b Batch) -> Vec<Part<'b>> {
+        let part = |interaction: usize, numbers| {
+            let contact = laws.interactions[interaction].as_ref()?.contact;
+            Some(Part::new(batch, numbers, &laws.labels(), (interaction, contact), laws.time))
+        };
+        if 0 < batch.rows && self.interactions.end_of_run(batch, 0) == batch.rows {
+            let interaction = self.interactions.of_row(batch, 0);
+            return interaction.and_then(|interaction| part(interaction, None)).into_iter().collect();
+        }
         let mut groups: Vec<(usize, Vec<u32>)> = Vec::new();
         let (mut first, mut ungoverned) = (0, 0);
         while first < batch.rows {
@@ -49,12 +57,7 @@ impl<'a> Worker<'a> {
             group.extend(rows.filter_map(|row| u32::try_from(row).ok()));
         }
         let is_one = groups.len() == 1 && ungoverned == 0;
-        let parts = groups.into_iter().filter_map(|(interaction, rows)| {
-            let contact = laws.interactions[interaction].as_ref()?.contact;
-            let numbers = if is_one { None } else { Some(rows) };
-            Some(Part::new(batch, numbers, &laws.labels(), (interaction, contact), laws.time))
-        });
-        parts.collect()
+        groups.into_iter().filter_map(|(interaction, rows)| part(interaction, (!is_one).then_some(rows))).collect()
     }
 
     /// Evaluates a batch; rows with a history go to the single `shard`, or are queued for one of `shards` where there are several.
@@ -91,10 +94,7 @@ impl<'a> Worker<'a> {
                 Some(_) => own.insert(ResultBatch::default()),
             };
             match (&of.electrical, &mut shard) {
-                (_, Some(shard)) if has_histories => {
-                    results_of_part.reset(part.rows(), laws.result_columns);
-                    shard.evaluate_part(laws, &part, &found, results_of_part);
-                }
+                (_, Some(shard)) if has_histories => shard.evaluate_part(laws, &part, &found, results_of_part),
                 (Some(law), _) if of.thermal.is_none() && of.pore.is_none() => {
                     let (found, faults) = (found.conductances.as_ref(), &mut self.tally.user_faults);
                     law.rows_alone(&part, found, laws.result_columns, results_of_part, tally, faults);

@@ -31,25 +31,33 @@ pub(crate) struct ElectricalSteps {
     pub(super) heat: [Step; 2],
 }
 
-impl ElectricalSteps {
-    /// The steps of some rows, from conductance and jump, the resulting current density, the heat, the duration and the area;
-    /// `None` where a number is not moderate, so that plain arithmetic may be inaccurate.
-    pub(crate) fn of(
+/// The steps of some rows.
+#[derive(Debug, Default)]
+pub(crate) struct StepColumns {
+    pub(crate) rows: Vec<ElectricalSteps>,
+    /// What rounding took away from the current densities.
+    rests: Vec<f64>,
+}
+
+impl StepColumns {
+    /// Finds the steps of some rows, from conductance and jump, the resulting current density and heat, duration and area;
+    /// false where a number is not moderate, so that plain arithmetic may be inaccurate.
+    pub(crate) fn find(
+        &mut self,
         [conductance, jump]: [&[f64]; 2],
-        current: &[f64],
-        heat: &[f64],
-        durations: &[f64],
-        area: &[f64],
-    ) -> Option<Vec<Self>> {
-        let mut rests = vec![0.0; current.len()];
-        let mut steps = vec![Self::default(); current.len()];
+        [current, heat]: [&[f64]; 2],
+        [durations, area]: [&[f64]; 2],
+    ) -> bool {
+        self.rests.resize(current.len(), 0.0);
+        self.rows.resize(current.len(), ElectricalSteps::default());
+        let (rests, steps) = (&mut self.rests, &mut self.rows);
         let set = InstructionSet::best();
-        set.run(FindRests { conductance, jump, current, rests: &mut rests });
-        if ![current, heat, durations, area, &rests].into_iter().all(are_moderate) {
-            return None;
+        set.run(FindRests { conductance, jump, current, rests });
+        let is_plain = [current, heat, durations, area, rests].into_iter().all(are_moderate);
+        if is_plain {
+            set.run(FindSteps { current, rests, heat, durations, area, steps });
         }
-        set.run(FindSteps { current, rests: &rests, heat, durations, area, steps: &mut steps });
-        Some(steps)
+        is_plain
     }
 }
 
@@ -123,13 +131,14 @@ mod tests {
                 .map(|row| by_rows.begin(f64::from(row) / 3.0, PotentialJump(jump[row as usize]), 1.0))
                 .collect();
             let durations: Vec<f64> = begun.iter().map(|increment| increment.duration.unwrap_or(0.0)).collect();
-            let steps = ElectricalSteps::of([&conductance, &jump], &current, &heat, &durations, &area);
-            for (row, steps) in steps.expect("all is moderate").iter().enumerate() {
+            let mut steps = StepColumns::default();
+            assert!(steps.find([&conductance, &jump], [&current, &heat], [&durations, &area]), "all is moderate");
+            for (row, steps) in steps.rows.iter().enumerate() {
                 let heat = GeneratedHeat { total: heat[row], slave: 0.0, master: 0.0 };
                 let flow = ElectricalFlow { current_density: current[row], heat };
                 let rest = conductance[row].mul_add(jump[row], -current[row]);
                 by_rows.finish(&begun[row], &flow, rest, Some(area[row]));
-                by_steps.finish_steps(&begun[row], steps);
+                by_steps.add_steps(steps);
                 let integrals = |of: &ElectricalHistory| {
                     [Some(of.current()), of.current_of_area(), Some(of.heat()), of.heat_of_area()]
                         .map(|value| value.map(f64::to_bits))
@@ -137,6 +146,6 @@ mod tests {
                 assert_eq!(integrals(&by_rows), integrals(&by_steps), "row {row} of size {size}");
             }
         }
-        assert_eq!(ElectricalSteps::of([&[1e200], &[1.0]], &[1e200], &[1.0], &[1.0], &[1.0]), None);
+        assert!(!StepColumns::default().find([&[1e200], &[1.0]], [&[1e200], &[1.0]], [&[1.0], &[1.0]]));
     }
 }

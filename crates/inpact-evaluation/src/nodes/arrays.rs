@@ -2,7 +2,9 @@
 //!
 //! Only the casts that are needed; those of Arrow between all types are a large library.
 
-use crate::arrow::array::{Array, ArrayRef, ArrowPrimitiveType, AsArray, Float64Array, PrimitiveArray, StringArray};
+use crate::arrow::array::{
+    Array, ArrayRef, ArrowPrimitiveType, AsArray, Float64Array, Int64Array, PrimitiveArray, StringArray, UInt32Array,
+};
 use crate::arrow::datatypes::{
     DataType, Float16Type, Float32Type, Float64Type, Int8Type, Int16Type, Int32Type, Int64Type, UInt8Type, UInt16Type,
     UInt32Type, UInt64Type,
@@ -68,6 +70,24 @@ pub(super) fn signed(array: &ArrayRef) -> Result<ArrayRef, ArrowError> {
         DataType::Int8 => converted::<Int8Type, Int64Type>(&array, i64::from),
         kind => return Err(ArrowError::CastError(format!("expected whole numbers with a sign, found {kind}"))),
     })
+}
+
+/// Whole numbers of any type as i64; `None` where the array holds others, or one is too large.
+pub(super) fn whole_numbers(array: &ArrayRef) -> Option<Int64Array> {
+    if let Ok(numbers) = signed(array) {
+        return Some(numbers.as_primitive::<Int64Type>().clone());
+    }
+    let numbers = unsigned(array).ok()?;
+    let numbers = numbers.as_primitive::<UInt64Type>();
+    // A number that is missing may be anything.
+    let is_large = |number: &u64| i64::try_from(*number).is_err();
+    let has_large = numbers.values().iter().any(is_large) && numbers.iter().flatten().any(|number| is_large(&number));
+    (!has_large).then(|| numbers.unary(u64::cast_signed))
+}
+
+/// Some rows; `None` where one of them is not there.
+pub(super) fn gathered(array: &ArrayRef, rows: &[u32]) -> Option<ArrayRef> {
+    take(array, &UInt32Array::from(rows.to_vec()), None).ok()
 }
 
 /// Texts of any kind, booleans (`true` and `false`), or dictionaries of these.

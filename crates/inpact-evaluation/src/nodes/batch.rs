@@ -116,6 +116,17 @@ impl LabelColumn {
         self.texts.get(row)
     }
 
+    /// The same texts of some rows.
+    fn gather(&self, rows: &[u32]) -> Self {
+        #[cfg(feature = "columnar")]
+        if let Some(array) = self.array().and_then(|array| super::arrays::gathered(array, rows)) {
+            return Self::from_array(array);
+        }
+        let mut gathered = Self::default();
+        rows.iter().for_each(|row| gathered.push(self.get(*row as usize)));
+        gathered
+    }
+
     /// Adds a row.
     #[inline]
     pub fn push(&mut self, text: &[u8]) {
@@ -440,10 +451,7 @@ impl Batch {
         gathered.rows = rows.len();
         gathered.numbers = self.numbers.iter().map(|column| column.gather(rows)).collect();
         for place in labels {
-            let column = &mut gathered.labels[*place];
-            for row in rows {
-                column.push(self.labels[*place].get(*row as usize));
-            }
+            gathered.labels[*place] = self.labels[*place].gather(rows);
         }
         gathered
     }

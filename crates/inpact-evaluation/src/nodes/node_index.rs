@@ -3,6 +3,7 @@
 //! Where the rows of each node are contiguous, one history at a time is enough, and memory does not grow with the number of nodes:
 //! [`NodeRuns`] detects this in a first pass, [`NodeIndex::by_node`] relies on it.
 
+use super::node_label::NodeLabel;
 use std::collections::hash_map::RandomState;
 use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasher, Hasher};
@@ -22,38 +23,94 @@ pub enum HistoryOrder {
 
 /// Numbers the nodes of each interaction in the order of first occurrence.
 ///
-/// Blanks around a label are ignored. Memory grows with the number of nodes, not of rows; for tables sorted by node it does not grow.
+/// Memory grows with the number of nodes, not of rows; for tables sorted by node it does not grow.
 ///
 /// Rows sorted by time have the nodes in the same order in every increment, so that the successor of the last node is tried before labels are hashed.
 #[derive(Debug, Clone, Default)]
-pub struct NodeIndex {
+pub(crate) struct NodeIndex {
     order: HistoryOrder,
-    numbers: Vec<HashMap<Box<[u8]>, usize, LabelHash>>,
+    interactions: Vec<NodesOfInteraction>,
     hash: LabelHash,
     met: MetNodes,
     last: usize,
-    current: Option<(usize, Vec<u8>)>,
+    current: Option<Node>,
+}
+
+/// The numbers of the nodes of an interaction by their labels.
+#[derive(Debug, Clone)]
+struct NodesOfInteraction {
+    by_number: HashMap<i64, usize, LabelHash>,
+    by_text: HashMap<Box<[u8]>, usize, LabelHash>,
 }
 
 /// The nodes by their numbers.
 #[derive(Debug, Clone, Default)]
 struct MetNodes {
-    /// The interaction of each, and the end of its label.
-    nodes: Vec<(usize, usize)>,
-    /// Their concatenated labels.
-    labels: Vec<u8>,
+    nodes: Vec<(usize, MetLabel)>,
+    /// The labels that are texts, one after the other.
+    texts: Vec<u8>,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum MetLabel {
+    Number(i64),
+    /// It stands there among the texts.
+    Text(usize, usize),
 }
 
 impl MetNodes {
-    fn is(&self, number: usize, interaction: usize, label: &[u8]) -> bool {
-        let Some(&(of, end)) = self.nodes.get(number) else { return false };
-        let start = if number == 0 { 0 } else { self.nodes[number - 1].1 };
-        of == interaction && self.labels[start..end] == *label
+    #[inline]
+    fn is(&self, number: usize, interaction: usize, label: NodeLabel<'_>) -> bool {
+        match (self.nodes.get(number), label) {
+            (Some((of, MetLabel::Number(met))), NodeLabel::Number(label)) => *of == interaction && *met == label,
+            (Some((of, MetLabel::Text(start, end))), NodeLabel::Text(label)) => {
+                *of == interaction && self.texts[*start..*end] == *label
+            }
+            _ => false,
+        }
     }
 
-    fn push(&mut self, interaction: usize, label: &[u8]) {
-        self.labels.extend_from_slice(label);
-        self.nodes.push((interaction, self.labels.len()));
+    fn push(&mut self, interaction: usize, label: NodeLabel<'_>) {
+        let label = match label {
+            NodeLabel::Number(number) => MetLabel::Number(number),
+            NodeLabel::Text(text) => {
+                let start = self.texts.len();
+                self.texts.extend_from_slice(text);
+                MetLabel::Text(start, self.texts.len())
+            }
+        };
+        self.nodes.push((interaction, label));
+    }
+}
+
+/// A node whose rows stand together.
+#[derive(Debug, Clone)]
+struct Node {
+    interaction: usize,
+    /// `None` where the label is a text.
+    number: Option<i64>,
+    text: Vec<u8>,
+}
+
+impl Node {
+    /// Whether a row is of another node than the row before, which is the current one from now on.
+    #[inline]
+    fn begins(current: &mut Option<Self>, interaction: usize, label: NodeLabel<'_>) -> bool {
+        let (number, text) = match label {
+            NodeLabel::Number(number) => (Some(number), &[][..]),
+            NodeLabel::Text(text) => (None, text),
+        };
+        if let Some(node) = current
+            && (node.interaction, node.number) == (interaction, number)
+            && (number.is_some() || node.text == text)
+        {
+            return false;
+        }
+        let node = current.get_or_insert_with(|| Self { interaction, number, text: Vec::new() });
+        (node.interaction, node.number) = (interaction, number);
+        node.text.clear();
+        node.text.extend_from_slice(text);
+        true
     }
 }
 
@@ -103,6 +160,10 @@ impl Hasher for LabelHasher {
         self.mix(length as u64);
     }
 
+    fn write_i64(&mut self, number: i64) {
+        self.mix(number.cast_unsigned());
+    }
+
     fn finish(&self) -> u64 {
         self.0
     }
@@ -110,11 +171,11 @@ impl Hasher for LabelHasher {
 
 /// The slot of the history of a row's node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct HistorySlot {
+pub(crate) struct HistorySlot {
     /// The number of the slot; at most the number of slots allocated before.
-    pub number: usize,
+    pub(crate) number: usize,
     /// Whether the row is its node's first, so that the slot is empty or holds another node.
-    pub is_first: bool,
+    pub(crate) is_first: bool,
 }
 
 /// Detects whether the rows of each node are contiguous.
@@ -122,28 +183,27 @@ pub struct HistorySlot {
 /// A table is reported as [`ByNode`](HistoryOrder::ByNode) only if it is; one with very many nodes whose labels are not ascending numbers may be
 /// reported as interleaved although it is not. Memory is bounded.
 #[derive(Debug, Default)]
-pub struct NodeRuns {
-    current: Option<(usize, Vec<u8>)>,
-    /// Whether the label of every run so far is a greater number than that of the previous run.
+pub(crate) struct NodeRuns {
+    current: Option<Node>,
+    /// Whether every run so far had a label that is a greater number than that of the run before.
     ascends: Ascent,
     /// The hashes of the nodes so far; `None` once there are too many.
     met: Option<HashSet<u64>>,
     hasher: RandomState,
     has_met_again: bool,
-    runs: u64,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 enum Ascent {
     #[default]
     NotBegun,
-    To(u64),
+    To(i64),
     No,
 }
 
 impl NodeIndex {
     /// An index for a table in which the rows of each node are contiguous.
-    pub fn by_node() -> Self {
+    pub(crate) fn by_node() -> Self {
         Self { order: HistoryOrder::ByNode, ..Self::default() }
     }
 
@@ -151,73 +211,68 @@ impl NodeIndex {
     ///
     /// For tables sorted by node there is one slot only.
     #[inline]
-    pub fn enter(&mut self, interaction: usize, label: &[u8]) -> HistorySlot {
+    pub(crate) fn enter(&mut self, interaction: usize, label: NodeLabel<'_>) -> HistorySlot {
         if self.order == HistoryOrder::ByNode {
-            let is_first = begins_run(&mut self.current, interaction, label);
+            let is_first = Node::begins(&mut self.current, interaction, label);
             return HistorySlot { number: 0, is_first };
         }
         let before = self.met.nodes.len();
-        let number = self.number(interaction, label);
-        HistorySlot { number, is_first: before < self.met.nodes.len() }
-    }
-
-    /// The number of a node under interaction number `interaction`; a new node gets the next number.
-    #[inline]
-    pub fn number(&mut self, interaction: usize, label: &[u8]) -> usize {
-        let label = label.trim_ascii();
-        let next = if self.last + 1 < self.met.nodes.len() { self.last + 1 } else { 0 };
+        let next = if self.last + 1 < before { self.last + 1 } else { 0 };
         self.last = if self.met.is(next, interaction, label) { next } else { self.find(interaction, label) };
-        self.last
+        HistorySlot { number: self.last, is_first: before < self.met.nodes.len() }
     }
 
-    fn find(&mut self, interaction: usize, label: &[u8]) -> usize {
-        if interaction >= self.numbers.len() {
+    /// The number of a node; a new node gets the next number.
+    fn find(&mut self, interaction: usize, label: NodeLabel<'_>) -> usize {
+        if self.interactions.len() <= interaction {
             let hash = self.hash;
-            self.numbers.resize_with(interaction + 1, || HashMap::with_hasher(hash));
+            self.interactions.resize_with(interaction + 1, || NodesOfInteraction {
+                by_number: HashMap::with_hasher(hash),
+                by_text: HashMap::with_hasher(hash),
+            });
         }
-        let numbers = &mut self.numbers[interaction];
-        if let Some(number) = numbers.get(label) {
-            return *number;
+        let nodes = &mut self.interactions[interaction];
+        let next = self.met.nodes.len();
+        let number = match label {
+            NodeLabel::Number(label) => *nodes.by_number.entry(label).or_insert(next),
+            NodeLabel::Text(text) => match nodes.by_text.get(text) {
+                Some(number) => *number,
+                None => *nodes.by_text.entry(text.into()).or_insert(next),
+            },
+        };
+        if number == next {
+            self.met.push(interaction, label);
         }
-        let number = self.met.nodes.len();
-        numbers.insert(label.into(), number);
-        self.met.push(interaction, label);
         number
     }
 }
 
 impl NodeRuns {
     /// No rows yet.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self { met: Some(HashSet::new()), ..Self::default() }
     }
 
     /// Adds the next row; true when it begins a run of rows of one node.
     #[inline]
-    pub fn take(&mut self, interaction: usize, label: &[u8]) -> bool {
-        let begins = begins_run(&mut self.current, interaction, label);
+    pub(crate) fn take(&mut self, interaction: usize, label: NodeLabel<'_>) -> bool {
+        let begins = Node::begins(&mut self.current, interaction, label);
         if begins {
-            self.begin(interaction, label.trim_ascii());
+            self.begin(interaction, label);
         }
         begins
     }
 
     /// The order of the rows so far.
-    pub fn order(&self) -> HistoryOrder {
+    pub(crate) fn order(&self) -> HistoryOrder {
         let is_by_node = self.ascends != Ascent::No || self.met.is_some() && !self.has_met_again;
         if is_by_node { HistoryOrder::ByNode } else { HistoryOrder::Interleaved }
     }
 
-    /// The number of runs; for tables sorted by node it is the number of nodes of all interactions.
-    pub fn runs(&self) -> u64 {
-        self.runs
-    }
-
-    fn begin(&mut self, interaction: usize, label: &[u8]) {
-        self.runs += 1;
-        self.ascends = match (self.ascends, whole_number(label)) {
-            (Ascent::NotBegun, Some(number)) => Ascent::To(number),
-            (Ascent::To(last), Some(number)) if last < number => Ascent::To(number),
+    fn begin(&mut self, interaction: usize, label: NodeLabel<'_>) {
+        self.ascends = match (self.ascends, label) {
+            (Ascent::NotBegun, NodeLabel::Number(number)) => Ascent::To(number),
+            (Ascent::To(last), NodeLabel::Number(number)) if last < number => Ascent::To(number),
             _ => Ascent::No,
         };
         if let Some(met) = &mut self.met {
@@ -230,31 +285,6 @@ impl NodeRuns {
     }
 }
 
-/// Whether a row is of another node than the previous row.
-#[inline]
-fn begins_run(current: &mut Option<(usize, Vec<u8>)>, interaction: usize, label: &[u8]) -> bool {
-    let label = label.trim_ascii();
-    match current {
-        Some((of, text)) if *of == interaction && text == label => false,
-        Some((of, text)) => {
-            *of = interaction;
-            text.clear();
-            text.extend_from_slice(label);
-            true
-        }
-        None => {
-            *current = Some((interaction, label.to_vec()));
-            true
-        }
-    }
-}
-
-/// A label that is a number without leading zeros, so that equal numbers are equal labels.
-fn whole_number(label: &[u8]) -> Option<u64> {
-    let is_number = label.iter().all(u8::is_ascii_digit) && (label.len() == 1 || label.first() != Some(&b'0'));
-    std::str::from_utf8(label).ok().filter(|_| is_number)?.parse().ok()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -263,7 +293,7 @@ mod tests {
     fn order(labels: &[&str]) -> HistoryOrder {
         let mut runs = NodeRuns::new();
         for label in labels {
-            runs.take(0, label.as_bytes());
+            runs.take(0, NodeLabel::of_text(label.as_bytes()));
         }
         runs.order()
     }
@@ -280,14 +310,14 @@ mod tests {
 
     #[test]
     fn many_nodes_must_ascend() {
-        let many = MOST_REMEMBERED as u64 + 10;
+        let many = i64::try_from(MOST_REMEMBERED).expect("a million") + 10;
         let mut runs = NodeRuns::new();
         for node in 0..many {
-            runs.take(0, node.to_string().as_bytes());
+            runs.take(0, NodeLabel::Number(node));
         }
-        assert_eq!((runs.order(), runs.runs()), (HistoryOrder::ByNode, many));
+        assert_eq!(runs.order(), HistoryOrder::ByNode);
         assert!(runs.met.is_none());
-        runs.take(0, b"5");
+        runs.take(0, NodeLabel::Number(5));
         assert_eq!(runs.order(), HistoryOrder::Interleaved);
     }
 
@@ -299,7 +329,7 @@ mod tests {
             changes.dedup();
             let nodes: HashSet<(usize, u8)> = rows.iter().copied().collect();
             for (interaction, node) in &rows {
-                runs.take(*interaction, node.to_string().as_bytes());
+                runs.take(*interaction, NodeLabel::Number(i64::from(*node)));
             }
             let expected = if nodes.len() == changes.len() { HistoryOrder::ByNode } else { HistoryOrder::Interleaved };
             prop_assert_eq!(runs.order(), expected);
@@ -312,7 +342,8 @@ mod tests {
             let mut met: Vec<(usize, u8)> = Vec::new();
             for node in rows {
                 let known = met.iter().position(|known| *known == node);
-                let slot = index.enter(node.0, format!(" {} ", node.1).as_bytes());
+                let text = [format!(" {} ", node.1), format!(" n{} ", node.1)][usize::from(node.1 % 2)].clone();
+                let slot = index.enter(node.0, NodeLabel::of_text(text.as_bytes()));
                 let number = known.unwrap_or(met.len());
                 prop_assert_eq!(slot, HistorySlot { number, is_first: known.is_none() });
                 if known.is_none() {
@@ -326,10 +357,10 @@ mod tests {
             let (mut all, mut by_node) = (NodeIndex::default(), NodeIndex::by_node());
             for (node, length) in lengths.iter().enumerate() {
                 for _ in 0..*length {
-                    let label = node.to_string();
-                    let slot = by_node.enter(1, label.as_bytes());
+                    let text = if node % 2 == 0 { node.to_string() } else { format!("n{node}") };
+                    let slot = by_node.enter(1, NodeLabel::of_text(text.as_bytes()));
                     prop_assert_eq!(slot.number, 0);
-                    let of_all = all.enter(1, label.as_bytes());
+                    let of_all = all.enter(1, NodeLabel::of_text(text.as_bytes()));
                     prop_assert_eq!(of_all, HistorySlot { number: node, is_first: slot.is_first });
                 }
             }

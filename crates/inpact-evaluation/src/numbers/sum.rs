@@ -32,7 +32,14 @@ impl CompensatedSum {
         }
     }
 
-    /// Adds a term of double-double precision.
+    /// Adds a product, rounded, and what the rounding took away.
+    #[inline]
+    fn add_exact_product(&mut self, product: f64, error: f64) {
+        self.add(product);
+        self.compensation += error;
+    }
+
+    /// Adds a term of twice the precision of f64.
     pub fn add_scaled(&mut self, term: Scaled) {
         let (value, rest) = term.to_pair();
         self.add(value);
@@ -144,14 +151,17 @@ impl UnboundedSum {
     /// Adds a product, rounded, and its rounding error, both far from over- and underflow, as [`add_product`](Self::add_product) does.
     #[inline]
     pub(crate) fn add_exact_product(&mut self, product: f64, error: f64) {
-        let add = |sum: &mut CompensatedSum| {
-            sum.add(product);
-            sum.compensation += error;
-        };
         if self.beyond.is_none() && self.plain.sum.abs() < LARGE {
-            return add(&mut self.plain);
+            self.plain.add_exact_product(product, error);
+        } else {
+            self.add_exact_product_to_large(product, error);
         }
-        self.add_plain(add, || Some(Scaled::new(product) + Scaled::new(error)));
+    }
+
+    #[cold]
+    fn add_exact_product_to_large(&mut self, product: f64, error: f64) {
+        let exact = || Some(Scaled::new(product) + Scaled::new(error));
+        self.add_plain(|sum| sum.add_exact_product(product, error), exact);
     }
 
     /// The block size in terms.

@@ -13,7 +13,8 @@ use crate::law::contact::ContactState;
 use crate::law::contact::columns::{contact_states, count_states};
 use crate::nodes::{
     Batch, Column, Findings, Header, HistoryOrder, KeptRows, MALFORMED_CELL, NEGATIVE_AREA, NEGATIVE_PROPERTY,
-    NON_FINITE, NodeIndex, NodeReader, NodeRuns, Part, Place, Selection, TIME_NOT_ASCENDING, UNKNOWN_INTERACTION,
+    NON_FINITE, NodeIndex, NodeLabel, NodeLabels, NodeReader, NodeRuns, Part, Place, Selection, TIME_NOT_ASCENDING,
+    UNKNOWN_INTERACTION,
 };
 use inpact_parser::model::Model;
 use std::io;
@@ -213,20 +214,25 @@ impl<'a> Surveyor<'a> {
     fn take(&mut self, batch: &Batch, mut kept: Option<&mut KeptRows>, findings: &mut Findings) -> io::Result<()> {
         self.survey.rows += batch.rows as u64;
         let is_suspicious = self.may_hold_what_it_must_not(batch);
+        let history = self.node.zip(self.time).map(|(node, time)| (NodeLabels::of(&batch.labels[node]), time));
         let mut first = 0;
         while first < batch.rows {
             let interaction = self.rows.of_row(batch, first);
             let rows = first..self.rows.end_of_run(batch, first);
             first = rows.end;
-            let has_times = self.node.is_some() && self.time.is_some();
-            let looked_at = if is_suspicious || has_times || interaction.is_none() { rows.clone() } else { 0..0 };
+            let looked_at =
+                if is_suspicious || history.is_some() || interaction.is_none() { rows.clone() } else { 0..0 };
             for row in looked_at {
                 if is_suspicious {
                     self.check_cells(batch, row, findings);
                 }
-                match interaction {
-                    Some(interaction) => self.check_time(interaction, batch, row, kept.as_deref_mut(), findings)?,
-                    None => self.report_unknown_interaction(batch, row, findings),
+                match (interaction, &history) {
+                    (Some(interaction), Some((nodes, time))) => {
+                        let place = (interaction, nodes.get(row), *time);
+                        self.check_time(place, batch, row, kept.as_deref_mut(), findings)?;
+                    }
+                    (Some(_), None) => {}
+                    (None, _) => self.report_unknown_interaction(batch, row, findings),
                 }
             }
             if let Some(interaction) = interaction {
@@ -324,14 +330,12 @@ impl<'a> Surveyor<'a> {
     /// The times of a node must ascend from row to row (D006).
     fn check_time(
         &mut self,
-        interaction: usize,
+        (interaction, label, time): (usize, NodeLabel<'_>, usize),
         batch: &Batch,
         row: usize,
         kept: Option<&mut KeptRows>,
         findings: &mut Findings,
     ) -> io::Result<()> {
-        let (Some(node), Some(time)) = (self.node, self.time) else { return Ok(()) };
-        let label = batch.labels[node].get(row);
         let begins = self.runs.as_mut().is_some_and(|runs| runs.take(interaction, label));
         if begins && self.runs.as_ref().is_some_and(|runs| runs.order() == HistoryOrder::Interleaved) {
             self.remember_all_nodes(batch, row, kept)?;
@@ -349,7 +353,6 @@ impl<'a> Surveyor<'a> {
         if time > before {
             return Ok(());
         }
-        let label = String::from_utf8_lossy(label.trim_ascii()).into_owned();
         let message = format!(
             "`time` of node `{label}` is {time:?} in row {} and {before:?} in the row before it",
             batch.first_row + row as u64 + 1
@@ -370,10 +373,11 @@ impl<'a> Surveyor<'a> {
         self.nodes = NodeIndex::default();
         self.last_times.clear();
         let mut take = |batch: &Batch, rows: usize| {
+            let nodes = NodeLabels::of(&batch.labels[node]);
             for row in 0..rows {
                 let Some(interaction) = self.rows.of_row(batch, row) else { continue };
                 let Some(time) = batch.numbers[time].get(row) else { continue };
-                let slot = self.nodes.enter(interaction, batch.labels[node].get(row));
+                let slot = self.nodes.enter(interaction, nodes.get(row));
                 if slot.number == self.last_times.len() {
                     self.last_times.push(time);
                 } else {

@@ -1,6 +1,6 @@
 //! The electrical law over the rows of a part: conductances by column, and current and heat too where there is no history and no extreme number.
 
-use super::{Dissipation, ExactFlow, flow};
+use super::{Dissipation, ElectricalFlow, ExactFlow, flow};
 use crate::accuracy::Wanted;
 use crate::evaluator::SeenError;
 use crate::history::{ElectricalHistory, ElectricalIncrement};
@@ -81,11 +81,37 @@ struct FlowInputs<'a> {
     area: Option<&'a [f64]>,
 }
 
-/// Current and heat of a row by plain arithmetic.
-#[derive(Debug, Clone, Copy)]
-struct PlainFlow {
-    current_density: f64,
-    heat: GeneratedHeat,
+/// Current and heat of at most [`CHUNK`] rows by plain arithmetic.
+#[derive(Debug)]
+struct FlowColumns {
+    current_density: [f64; CHUNK],
+    current: [f64; CHUNK],
+    heat: [f64; CHUNK],
+    heat_of_area: [f64; CHUNK],
+    heat_slave: [f64; CHUNK],
+    heat_master: [f64; CHUNK],
+}
+
+impl Default for FlowColumns {
+    fn default() -> Self {
+        let column = [0.0; CHUNK];
+        Self {
+            current_density: column,
+            current: column,
+            heat: column,
+            heat_of_area: column,
+            heat_slave: column,
+            heat_master: column,
+        }
+    }
+}
+
+impl FlowColumns {
+    /// Current and heat of row number `at`.
+    fn row(&self, at: usize) -> ElectricalFlow {
+        let heat = GeneratedHeat { total: self.heat[at], slave: self.heat_slave[at], master: self.heat_master[at] };
+        ElectricalFlow { current_density: self.current_density[at], heat }
+    }
 }
 
 impl ElectricalColumns {
@@ -216,7 +242,7 @@ impl ElectricalColumns {
             && part.tells_contact()
             && jump.as_ref().is_none_or(Cells::is_full)
             && area.as_ref().is_none_or(Cells::is_full);
-        let (mut outcomes, mut heats, mut flows) = (Vec::with_capacity(count), Vec::new(), Vec::new());
+        let (mut outcomes, mut heats, mut flows) = (Vec::with_capacity(count), Vec::new(), FlowColumns::default());
         if takes_heat {
             heats.reserve(count);
         }
@@ -245,12 +271,10 @@ impl ElectricalColumns {
                 jump_at_start: None,
                 area: area.as_ref().map(|area| &area.values[rows.clone()]),
             };
-            flows.clear();
-            self.plain_flows(inputs, rows.clone(), results, takes_heat.then_some(&mut flows));
-            if takes_heat && jump.is_some() {
-                heats.extend(flows.iter().map(|flow| Some(HeatAmounts::from(flow.heat))));
-            } else if takes_heat {
-                heats.extend(rows.clone().map(|_| None));
+            self.plain_flows(inputs, rows.clone(), results, &mut flows);
+            if takes_heat {
+                let heat = |at| jump.is_some().then(|| HeatAmounts::from(flows.row(at).heat));
+                heats.extend((0..rows.len()).map(heat));
             }
             if let (Some(jump), Some(source)) = (&jump, &self.jump) {
                 tally.lost_digits += lost_digits(source, part, rows.clone().map(|row| (row, jump.values[row])));
@@ -295,13 +319,13 @@ impl ElectricalColumns {
             && area.is_none_or(|area| are_moderate(&area.values[rows]))
     }
 
-    /// Conductance, current and heat of some rows by plain arithmetic; `flows` takes the values that are multiplied and summed further.
+    /// Conductance, current and heat of some rows by plain arithmetic; `flows` are of no meaning where there is no jump.
     fn plain_flows(
         &self,
         inputs: FlowInputs<'_>,
         rows: Range<usize>,
         results: &mut ResultBatch,
-        flows: Option<&mut Vec<PlainFlow>>,
+        flows: &mut FlowColumns,
     ) {
         let FlowInputs { conductance, jump, jump_at_start, area } = inputs;
         let generation = self.heat_generation;
@@ -312,10 +336,7 @@ impl ElectricalColumns {
             results.numbers[slot].values_mut()[rows.clone()].fill(generation.slave_weight);
         }
         let Some(jump) = jump else { return };
-        let mut columns = [[0.0; CHUNK]; 6];
         let count = rows.len();
-        let [current_density, current, heat, heat_of_area, slave, master] =
-            columns.each_mut().map(|column| &mut column[..count]);
         let inputs = ElectricalInputs {
             jump,
             // Without a history an increment starts as it ends (C-25).
@@ -323,36 +344,27 @@ impl ElectricalColumns {
             area,
         };
         let mut outputs = ElectricalOutputs {
-            current_density: Some(&mut *current_density),
-            current: area.map(|_| &mut *current),
-            heat: Some(&mut *heat),
-            heat_of_area: area.map(|_| &mut *heat_of_area),
-            heat_slave: Some(&mut *slave),
-            heat_master: Some(&mut *master),
+            current_density: Some(&mut flows.current_density[..count]),
+            current: area.map(|_| &mut flows.current[..count]),
+            heat: Some(&mut flows.heat[..count]),
+            heat_of_area: area.map(|_| &mut flows.heat_of_area[..count]),
+            heat_slave: Some(&mut flows.heat_slave[..count]),
+            heat_master: Some(&mut flows.heat_master[..count]),
         };
         electrical_outputs(self.set, generation, conductance, &inputs, &mut outputs);
-        if let Some(flows) = flows {
-            let shared = current_density.iter().zip(&*heat).zip(&*slave).zip(&*master);
-            flows.extend(shared.map(|(((current_density, total), slave), master)| PlainFlow {
-                current_density: *current_density,
-                heat: GeneratedHeat { total: *total, slave: *slave, master: *master },
-            }));
-        }
         let slots = &self.slots;
         let area_of = |slot: Option<usize>| slot.filter(|_| area.is_some());
         let written = [
-            (slots.ecd, &*current_density),
-            (area_of(slots.ecda), &*current),
-            (slots.sjd, &*heat),
-            (area_of(slots.sjda), &*heat_of_area),
-            (slots.heat_slave, &*slave),
-            (slots.heat_master, &*master),
+            (slots.ecd, &flows.current_density),
+            (area_of(slots.ecda), &flows.current),
+            (slots.sjd, &flows.heat),
+            (area_of(slots.sjda), &flows.heat_of_area),
+            (slots.heat_slave, &flows.heat_slave),
+            (slots.heat_master, &flows.heat_master),
         ];
         for (slot, values) in written {
-            let Some(slot) = slot else { continue };
-            let column = &mut results.numbers[slot].values_mut()[rows.clone()];
-            // Zero current is +0, not −0.
-            column.iter_mut().zip(values).for_each(|(cell, value)| *cell = value + 0.0);
+            // No current is 0, not −0.
+            results.set_rows(slot, &rows, |row| values[row] + 0.0);
         }
     }
 

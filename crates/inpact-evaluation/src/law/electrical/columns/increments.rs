@@ -2,12 +2,11 @@
 //! current and heat are computed by column, and each row adds to the integrals of its node, which are still in the cache.
 
 use super::alone::set_contact;
-use super::{CHUNK, ElectricalColumns, FlowInputs, PlainFlow, lost_digits};
-use crate::history::{ElectricalHistory, ElectricalIncrement, ElectricalSteps};
+use super::{CHUNK, ElectricalColumns, FlowColumns, FlowInputs, lost_digits};
+use crate::history::{ElectricalHistory, ElectricalIncrement, StepColumns};
 use crate::kernel::scan::are_moderate;
 use crate::law::conductance::columns::ConductanceColumn;
 use crate::law::contact::PotentialJump;
-use crate::law::electrical::ElectricalFlow;
 use crate::law::heat::HeatAmounts;
 use crate::nodes::Cells;
 use crate::numbers::is_moderate;
@@ -26,22 +25,41 @@ pub(crate) struct Increments<'p, 'a> {
     area: Option<Cells<'p>>,
 }
 
-/// Some of them, with the increments that they end.
-#[derive(Debug)]
-pub(crate) struct Chunk<'r> {
-    /// The rows, by their numbers in the part.
-    rows: &'r [usize],
+/// Some of them, with the increments that they end; its memory is that of the chunk before.
+#[derive(Debug, Default)]
+pub(crate) struct Chunk {
     /// The row of the results that the first of them fills.
     first: usize,
     times: Vec<f64>,
     conductance: Vec<f64>,
     jump: Vec<f64>,
-    area: Option<Vec<f64>>,
+    /// Empty where there are no areas.
+    area: Vec<f64>,
     begun: Vec<ElectricalIncrement>,
-    /// Current and heat, where plain arithmetic gives them.
-    flows: Option<Vec<PlainFlow>>,
-    /// The contributions of the rows to the integrals, where all numbers are moderate.
-    steps: Option<Vec<ElectricalSteps>>,
+    jump_at_start: Vec<f64>,
+    /// 0 where an increment has none.
+    durations: Vec<f64>,
+    /// The rows that close a circuit.
+    closing: Vec<usize>,
+    /// Whether a node has had a row without an area.
+    lacks_area: bool,
+    arithmetic: Arithmetic,
+    flows: Box<FlowColumns>,
+    steps: StepColumns,
+    /// The integrals at the rows: of current and heat, each per area and of the area.
+    integrals: [Vec<f64>; 4],
+}
+
+/// How current, heat and integrals of a chunk are found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+enum Arithmetic {
+    /// Row by row: a number is extreme.
+    #[default]
+    Careful,
+    /// Current and heat in columns, integrals row by row.
+    PlainFlows,
+    /// All in columns: the rows differ in nothing but their steps.
+    PlainSteps,
 }
 
 impl ElectricalColumns {
@@ -67,77 +85,74 @@ impl Increments<'_, '_> {
     /// The maximum number of rows in a chunk.
     pub(crate) const CHUNK: usize = CHUNK;
 
-    /// Some rows, no more than [`Self::CHUNK`], the first of which fills row `first` of the results.
-    pub(crate) fn chunk<'r>(&self, rows: &'r [usize], first: usize) -> Chunk<'r> {
-        let of_rows = |values: &[f64]| rows.iter().map(|row| values[*row]).collect::<Vec<f64>>();
-        Chunk {
-            rows,
-            first,
-            times: of_rows(self.times),
-            conductance: of_rows(&self.found.values),
-            jump: of_rows(&self.jump.values),
-            area: self.area.as_ref().map(|area| of_rows(&area.values)),
-            begun: Vec::with_capacity(rows.len()),
-            flows: None,
-            steps: None,
-        }
+    /// The columns of results that every row fills.
+    pub(crate) fn filled(&self) -> [Option<usize>; 8] {
+        let slots = &self.law.slots;
+        let [conductance, weight, ecdt, sjdt] = [slots.conductance, slots.weight, slots.ecdt, slots.sjdt];
+        [conductance, weight, slots.ecd, slots.sjd, slots.heat_slave, slots.heat_master, ecdt, sjdt]
+    }
+
+    /// Makes `chunk` some rows, no more than [`Self::CHUNK`], the first of which fills row `first` of the results.
+    pub(crate) fn take(&self, rows: &[usize], first: usize, chunk: &mut Chunk) {
+        chunk.first = first;
+        gather(self.times, rows, &mut chunk.times);
+        gather(&self.found.values, rows, &mut chunk.conductance);
+        gather(&self.jump.values, rows, &mut chunk.jump);
+        gather(self.area.as_ref().map_or(&[], |area| &area.values), rows, &mut chunk.area);
+        chunk.begun.clear();
+        chunk.jump_at_start.clear();
+        chunk.durations.clear();
+        chunk.closing.clear();
+        chunk.lacks_area = self.area.is_none();
+        chunk.arithmetic = Arithmetic::Careful;
     }
 
     /// Conductance, current and heat of a chunk, each of whose rows has begun.
-    pub(crate) fn evaluate(&self, chunk: &mut Chunk<'_>, results: &mut ResultBatch) {
-        let starts: Vec<f64> = chunk.begun.iter().map(|increment| increment.jump_at_start.0).collect();
+    pub(crate) fn evaluate(&self, chunk: &mut Chunk, results: &mut ResultBatch) {
+        let to = chunk.results();
+        let Chunk { conductance, jump, jump_at_start, durations, area, flows, steps, .. } = chunk;
         let inputs = FlowInputs {
-            conductance: &chunk.conductance,
-            jump: Some(&chunk.jump),
-            jump_at_start: Some(&starts),
-            area: chunk.area.as_deref(),
+            conductance,
+            jump: Some(jump),
+            jump_at_start: Some(jump_at_start),
+            area: self.area.is_some().then_some(area),
         };
-        let of_rows = [Some(inputs.conductance), inputs.jump, inputs.jump_at_start, inputs.area];
-        let durations = chunk.begun.iter().filter_map(|increment| increment.duration);
-        let is_plain = of_rows.into_iter().flatten().all(are_moderate)
-            && durations.fold(true, |all, duration| all & is_moderate(duration));
-        if !is_plain {
+        if ![&*conductance, &*jump, &*jump_at_start, &*durations, &*area].into_iter().all(|column| are_moderate(column))
+        {
             return;
         }
-        let mut flows = Vec::with_capacity(chunk.rows.len());
-        self.law.plain_flows(inputs, chunk.results(), results, Some(&mut flows));
-        chunk.steps = chunk.steps(&flows);
-        chunk.flows = Some(flows);
+        let count = to.len();
+        self.law.plain_flows(inputs, to, results, flows);
+        chunk.arithmetic = Arithmetic::PlainFlows;
+        let is_uniform = !chunk.lacks_area && self.law.slopes.is_empty() && self.found.sides.is_empty();
+        let flows = [&flows.current_density[..count], &flows.heat[..count]];
+        if is_uniform && steps.find([conductance, jump], flows, [durations, area]) {
+            chunk.arithmetic = Arithmetic::PlainSteps;
+            chunk.integrals.iter_mut().for_each(Vec::clear);
+        }
     }
 
-    /// Whether the rows of a chunk differ only in their steps: then [`Self::finish_steps`] and [`Self::set_statuses`] finish them.
-    pub(crate) fn is_uniform(&self, chunk: &Chunk<'_>) -> bool {
-        chunk.steps.is_some() && self.law.slopes.is_empty() && self.found.sides.is_empty()
-    }
-
-    /// Adds row number `at` of a chunk, where they are uniform, to the integrals of its node, and counts remarks.
-    #[inline]
-    pub(crate) fn finish_steps(
+    /// Sets integrals and statuses of a chunk that [`Chunk::add_steps`] has gone through, and counts what is to be said of its rows.
+    pub(crate) fn end_steps(
         &self,
-        chunk: &Chunk<'_>,
-        at: usize,
-        history: &mut ElectricalHistory,
+        chunk: &Chunk,
+        rows: &[usize],
         results: &mut ResultBatch,
         tally: &mut InteractionTally,
     ) {
-        let Some(steps) = &chunk.steps else { return };
-        let (increment, to) = (&chunk.begun[at], chunk.result_of(at));
-        history.finish_steps(increment, &steps[at]);
-        self.law.set_integrals(history, to, results);
-        if increment.closes_circuit
-            && let Some(row) = self.part.row(chunk.rows[at], to)
-        {
-            self.law.count_closing(row, increment, PotentialJump(chunk.jump[at]), tally);
+        let slots = &self.law.slots;
+        for (slot, integrals) in [slots.ecdt, slots.ecdta, slots.sjdt, slots.sjdta].into_iter().zip(&chunk.integrals) {
+            // No current is 0, not −0.
+            results.set_rows(slot, &chunk.results(), |row| integrals[row] + 0.0);
         }
-    }
-
-    /// Sets the statuses of a chunk whose rows are uniform.
-    pub(crate) fn set_statuses(&self, chunk: &Chunk<'_>, results: &mut ResultBatch) {
-        match chunk.rows {
-            [first, .., last] if last - first + 1 == chunk.rows.len() => {
-                set_contact(&self.part.states[*first..=*last], chunk.results(), results);
+        for at in &chunk.closing {
+            if let Some(row) = self.part.row(rows[*at], chunk.result_of(*at)) {
+                self.law.count_closing(row, &chunk.begun[*at], PotentialJump(chunk.jump[*at]), tally);
             }
-            rows => {
+        }
+        match contiguous(rows) {
+            Some(rows) => set_contact(&self.part.states[rows], chunk.results(), results),
+            None => {
                 for (to, row) in chunk.results().zip(rows) {
                     set_contact(&self.part.states[*row..=*row], to..to + 1, results);
                 }
@@ -145,25 +160,23 @@ impl Increments<'_, '_> {
         }
     }
 
-    /// Adds row number `at` of a chunk to the integrals of its node; returns its status and the heat of its current.
+    /// Adds row number `at` of a chunk, which is row `index` of the part, to the integrals of its node; gives its status and the heat of its current.
     pub(crate) fn finish(
         &self,
-        chunk: &Chunk<'_>,
-        at: usize,
+        chunk: &Chunk,
+        (at, index): (usize, usize),
         history: &mut ElectricalHistory,
         results: &mut ResultBatch,
         tally: &mut InteractionTally,
     ) -> (Outcome, Option<HeatAmounts>) {
-        let (law, index, to) = (self.law, chunk.rows[at], chunk.first + at);
+        if chunk.arithmetic == Arithmetic::Careful {
+            return self.finish_with_care(chunk, (at, index), history, results, tally);
+        }
+        let (law, to) = (self.law, chunk.result_of(at));
         let (sides, state) = (self.found.sides_of(index), self.part.states[index]);
-        let Some(flow) = chunk.flows.as_ref().map(|flows| flows[at]) else {
-            return self.finish_with_care(chunk, at, history, results, tally);
-        };
-        let (increment, jump) = (&chunk.begun[at], chunk.jump[at]);
-        let area = chunk.area.as_ref().map(|area| area[at]);
+        let (increment, jump, flow) = (&chunk.begun[at], chunk.jump[at], chunk.flows.row(at));
         let rest = chunk.conductance[at].mul_add(jump, -flow.current_density);
-        let of_row = ElectricalFlow { current_density: flow.current_density, heat: flow.heat };
-        history.finish(increment, &of_row, rest, area);
+        history.finish(increment, &flow, rest, chunk.area.get(at).copied());
         law.set_integrals(history, to, results);
         let heat = Some(HeatAmounts::from(flow.heat));
         if law.slopes.is_empty() && sides.is_within() && !increment.closes_circuit {
@@ -179,13 +192,13 @@ impl Increments<'_, '_> {
     #[cold]
     fn finish_with_care(
         &self,
-        chunk: &Chunk<'_>,
-        at: usize,
+        chunk: &Chunk,
+        (at, index): (usize, usize),
         history: &mut ElectricalHistory,
         results: &mut ResultBatch,
         tally: &mut InteractionTally,
     ) -> (Outcome, Option<HeatAmounts>) {
-        let (law, index, to, value) = (self.law, chunk.rows[at], chunk.first + at, chunk.conductance[at]);
+        let (law, to, value) = (self.law, chunk.result_of(at), chunk.conductance[at]);
         let Some(row) = self.part.row(index, to) else { return (Outcome::Incomplete, None) };
         results.set(law.slots.conductance, to, Some(value));
         results.set(law.slots.weight, to, Some(law.heat_generation.slave_weight));
@@ -203,15 +216,13 @@ impl Increments<'_, '_> {
             tally.lost_digits += lost_digits(source, self.part, rows);
         }
         let slots = &self.law.slots;
-        let of_area = [slots.ecda, slots.sjda].map(|slot| slot.filter(|_| self.area.is_some()));
-        let others = [slots.conductance, slots.weight, slots.ecd, slots.sjd, slots.heat_slave, slots.heat_master];
-        for slot in others.into_iter().chain(of_area).chain([slots.ecdt, slots.sjdt]).flatten() {
-            results.numbers[slot].set_all_present();
+        for slot in [slots.ecda, slots.sjda, slots.ecdta, slots.sjdta].into_iter().flatten() {
+            results.numbers[slot].settle();
         }
     }
 }
 
-impl Chunk<'_> {
+impl Chunk {
     /// The row of the results that row number `at` of it fills.
     #[inline]
     pub(crate) fn result_of(&self, at: usize) -> usize {
@@ -220,21 +231,55 @@ impl Chunk<'_> {
 
     /// The rows of the results that it fills.
     fn results(&self) -> Range<usize> {
-        self.first..self.first + self.rows.len()
+        self.first..self.first + self.times.len()
     }
 
-    /// Advances to the next row, whose node has this history.
+    /// Takes what it must know of the histories of all rows before they begin.
+    pub(crate) fn look_at<'h>(&mut self, histories: impl Iterator<Item = &'h ElectricalHistory>) {
+        self.lacks_area |= histories.fold(false, |lacks_area, history| lacks_area | history.lacks_area());
+    }
+
+    /// Goes on to the next row, whose node has this history.
+    #[inline]
     pub(crate) fn begin(&mut self, history: &mut ElectricalHistory) {
         let next = self.begun.len();
         let jump = PotentialJump(self.jump[next]);
-        self.begun.push(history.begin(self.times[next], jump, self.conductance[next]));
+        let increment = history.begin(self.times[next], jump, self.conductance[next]);
+        if increment.closes_circuit {
+            self.closing.push(next);
+        }
+        self.jump_at_start.push(increment.jump_at_start.0);
+        self.durations.push(increment.duration.unwrap_or(0.0));
+        self.begun.push(increment);
     }
 
-    /// The contributions of the rows to the integrals; `None` where a row has no area, or a number is not moderate.
-    fn steps(&self, flows: &[PlainFlow]) -> Option<Vec<ElectricalSteps>> {
-        let durations: Vec<f64> = self.begun.iter().map(|increment| increment.duration.unwrap_or(0.0)).collect();
-        let currents: Vec<f64> = flows.iter().map(|flow| flow.current_density).collect();
-        let heats: Vec<f64> = flows.iter().map(|flow| flow.heat.total).collect();
-        ElectricalSteps::of([&self.conductance, &self.jump], &currents, &heats, &durations, self.area.as_deref()?)
+    /// Whether the rows differ in nothing but their steps: then [`Self::add_steps`] and [`Increments::end_steps`] finish them.
+    pub(crate) fn is_uniform(&self) -> bool {
+        self.arithmetic == Arithmetic::PlainSteps
+    }
+
+    /// Adds the next row to the integrals of its node, where the rows are uniform.
+    #[inline]
+    pub(crate) fn add_steps(&mut self, at: usize, history: &mut ElectricalHistory) {
+        history.add_steps(&self.steps.rows[at]);
+        for (column, value) in self.integrals.iter_mut().zip(history.integrals()) {
+            column.push(value);
+        }
+    }
+}
+
+/// The rows, where they stand together; rows ascend.
+fn contiguous(rows: &[usize]) -> Option<Range<usize>> {
+    let (first, last) = (*rows.first()?, *rows.last()?);
+    (last - first + 1 == rows.len()).then_some(first..last + 1)
+}
+
+/// The numbers of some rows; none of an empty column.
+fn gather(column: &[f64], rows: &[usize], numbers: &mut Vec<f64>) {
+    numbers.clear();
+    match contiguous(rows) {
+        _ if column.is_empty() => {}
+        Some(rows) => numbers.extend_from_slice(&column[rows]),
+        None => numbers.extend(rows.iter().map(|row| column[*row])),
     }
 }
