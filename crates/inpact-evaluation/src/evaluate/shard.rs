@@ -181,17 +181,11 @@ impl Shard {
             let slot = index.enter(part.interaction, nodes.get(*row));
             if slot.number == histories.len() {
                 histories.push(NodeHistory::of(laws));
+            } else if slot.is_first {
+                histories[slot.number].electrical.restart();
             }
+            chunk.begin(&mut histories[slot.number].electrical);
             slots.push(slot);
-        }
-        // A look at each history that waits for nothing has many of them fetched at once, where they are not in the cache.
-        chunk.look_at(slots.iter().map(|slot| &histories[slot.number].electrical));
-        for slot in &*slots {
-            let history = &mut histories[slot.number].electrical;
-            if slot.is_first {
-                history.restart();
-            }
-            chunk.begin(history);
         }
         increments.evaluate(chunk, results);
         let (tally, faults) = (&mut tally.interactions[part.interaction], &mut tally.user_faults);

@@ -123,7 +123,9 @@ impl LabelColumn {
             return Self::from_array(array);
         }
         let mut gathered = Self::default();
-        rows.iter().for_each(|row| gathered.push(self.get(*row as usize)));
+        for row in rows {
+            gathered.push(self.get(*row as usize));
+        }
         gathered
     }
 
@@ -350,13 +352,13 @@ impl NumberColumn {
         }
     }
 
-    /// Sets the numbers of some rows; `of` counts them from 0.
+    /// Sets the numbers of some rows.
     #[inline]
-    pub(crate) fn set_rows(&mut self, rows: Range<usize>, of: impl Fn(usize) -> f64) {
+    pub(crate) fn set_rows(&mut self, rows: Range<usize>, numbers: impl Iterator<Item = f64>) {
         if let Some(present) = self.present.get_mut(rows.clone()) {
             present.fill(true);
         }
-        self.values.owned()[rows].iter_mut().enumerate().for_each(|(row, value)| *value = of(row));
+        self.values.owned()[rows].iter_mut().zip(numbers).for_each(|(value, number)| *value = number);
     }
 
     /// Drops the flags of a column without missing numbers.

@@ -105,7 +105,15 @@ impl ResultBatch {
     #[inline]
     pub(crate) fn set_rows(&mut self, column: Option<usize>, rows: &Range<usize>, of: impl Fn(usize) -> f64) {
         if let Some(column) = column {
-            self.numbers[column].set_rows(rows.clone(), of);
+            self.numbers[column].set_rows(rows.clone(), (0..rows.len()).map(of));
+        }
+    }
+
+    /// Sets the flows of some rows, or what flows add up to, where the plan has their column: no flow is 0, not −0.
+    #[inline]
+    pub(crate) fn set_flows(&mut self, column: Option<usize>, rows: Range<usize>, flows: impl Iterator<Item = f64>) {
+        if let Some(column) = column {
+            self.numbers[column].set_rows(rows, flows.map(|flow| flow + 0.0));
         }
     }
 

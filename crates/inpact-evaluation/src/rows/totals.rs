@@ -50,8 +50,9 @@ impl Totals {
         let mut first = rows.start;
         while first < rows.end {
             let time = times.map(|times| times[first]);
-            let is_other = |row: &usize| times.is_some_and(|times| Some(times[*row]) != time);
-            let some = first..(first + 1..rows.end).find(is_other).unwrap_or(rows.end);
+            let others = times.and_then(|times| times[first..rows.end].iter().position(|other| Some(*other) != time));
+            // NaN is another time than itself.
+            let some = first..others.map_or(rows.end, |count| first + count.max(1));
             first = some.end;
             self.take_rows(time, summed, results, some);
         }

@@ -363,8 +363,7 @@ impl ElectricalColumns {
             (slots.heat_master, &flows.heat_master),
         ];
         for (slot, values) in written {
-            // No current is 0, not −0.
-            results.set_rows(slot, &rows, |row| values[row] + 0.0);
+            results.set_flows(slot, rows.clone(), values.iter().copied());
         }
     }
 

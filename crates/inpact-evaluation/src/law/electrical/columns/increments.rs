@@ -47,7 +47,7 @@ pub(crate) struct Chunk {
     flows: Box<FlowColumns>,
     steps: StepColumns,
     /// The integrals at the rows: of current and heat, each per area and of the area.
-    integrals: [Vec<f64>; 4],
+    integrals: Vec<[f64; 4]>,
 }
 
 /// How current, heat and integrals of a chunk are found.
@@ -128,7 +128,7 @@ impl Increments<'_, '_> {
         let flows = [&flows.current_density[..count], &flows.heat[..count]];
         if is_uniform && steps.find([conductance, jump], flows, [durations, area]) {
             chunk.arithmetic = Arithmetic::PlainSteps;
-            chunk.integrals.iter_mut().for_each(Vec::clear);
+            chunk.integrals.clear();
         }
     }
 
@@ -141,9 +141,8 @@ impl Increments<'_, '_> {
         tally: &mut InteractionTally,
     ) {
         let slots = &self.law.slots;
-        for (slot, integrals) in [slots.ecdt, slots.ecdta, slots.sjdt, slots.sjdta].into_iter().zip(&chunk.integrals) {
-            // No current is 0, not −0.
-            results.set_rows(slot, &chunk.results(), |row| integrals[row] + 0.0);
+        for (place, slot) in [slots.ecdt, slots.ecdta, slots.sjdt, slots.sjdta].into_iter().enumerate() {
+            results.set_flows(slot, chunk.results(), chunk.integrals.iter().map(|integrals| integrals[place]));
         }
         for at in &chunk.closing {
             if let Some(row) = self.part.row(rows[*at], chunk.result_of(*at)) {
@@ -234,16 +233,12 @@ impl Chunk {
         self.first..self.first + self.times.len()
     }
 
-    /// Takes what it must know of the histories of all rows before they begin.
-    pub(crate) fn look_at<'h>(&mut self, histories: impl Iterator<Item = &'h ElectricalHistory>) {
-        self.lacks_area |= histories.fold(false, |lacks_area, history| lacks_area | history.lacks_area());
-    }
-
     /// Goes on to the next row, whose node has this history.
     #[inline]
     pub(crate) fn begin(&mut self, history: &mut ElectricalHistory) {
         let next = self.begun.len();
         let jump = PotentialJump(self.jump[next]);
+        self.lacks_area |= history.lacks_area();
         let increment = history.begin(self.times[next], jump, self.conductance[next]);
         if increment.closes_circuit {
             self.closing.push(next);
@@ -262,9 +257,7 @@ impl Chunk {
     #[inline]
     pub(crate) fn add_steps(&mut self, at: usize, history: &mut ElectricalHistory) {
         history.add_steps(&self.steps.rows[at]);
-        for (column, value) in self.integrals.iter_mut().zip(history.integrals()) {
-            column.push(value);
-        }
+        self.integrals.push(history.integrals());
     }
 }
 
