@@ -49,7 +49,7 @@ impl Matrix {
         drop(next);
         let mut starts = Vec::with_capacity(nodes + 1);
         let mut columns: Vec<u32> = Vec::new();
-        // The last row that each node was met in.
+        // The last row in which each node occurred.
         let mut met = vec![u32::MAX; nodes];
         for (row, ends) in (0_u32..).zip(around_starts.windows(2)) {
             let start = columns.len();
@@ -115,7 +115,7 @@ impl Matrix {
         Ok(())
     }
 
-    /// The flow out of each node at these values, link by link: no two large flows are subtracted where values are alike.
+    /// The flow out of each node at these values, link by link, without cancellation where values are alike.
     pub(crate) fn flows(&self, values: &[f64]) -> Vec<f64> {
         let mut flows = vec![0.0; values.len()];
         for row in 0..values.len() {
@@ -133,7 +133,7 @@ impl Matrix {
 
     /// a(x, y) = ∫ ∇x·k·∇y dV for all pairs of some fields of a body, x before or the same as y, each pair at row · count + column.
     ///
-    /// Fields that solve their equations but for an error have it here as a product of two errors.
+    /// For fields with an error in their solution the error here is a product of two errors.
     pub(crate) fn energies(&self, nodes: &NodesOfBody<'_>, fields: &[&[f64]]) -> Vec<f64> {
         let count = fields.len();
         let mut sums = vec![Sum::default(); count * count];
@@ -160,7 +160,7 @@ impl Matrix {
     }
 }
 
-/// A sum that keeps what rounding takes off (A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen, 1974).
+/// A compensated sum (A. Neumaier, Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen, 1974).
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Sum {
     sum: f64,

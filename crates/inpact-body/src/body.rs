@@ -11,7 +11,7 @@ use inpact_parser::model::Name;
 use inpact_parser::span::Span;
 use std::io;
 
-/// The most names that a message lists.
+/// The maximum number of names in a message.
 const MOST_NAMES: usize = 12;
 
 /// The bodies of a deck with their terminals.
@@ -187,7 +187,7 @@ fn undefined(name: &Name, known: &[Name]) -> String {
     format!("the deck has no surface and no node set `{name}`: it has {}{more}", shown.join(", "))
 }
 
-/// The elements that a deck has instead of solids, each with its place.
+/// The elements of a deck other than solids, each with its place.
 fn without_solid(mesh: &BodyMesh) -> Error {
     let of_elements = mesh.left_out.iter().filter(|note| note.message.starts_with("elements of type"));
     let faults: Vec<BodyFault> = of_elements.cloned().map(BodyFault::from).collect();
@@ -231,7 +231,7 @@ fn parts(mesh: &BodyMesh) -> (Vec<u32>, Vec<BodyPart>) {
 fn root(parent: &mut [u32], node: u32) -> u32 {
     let mut top = node;
     while parent[top as usize] != top {
-        // Every second node of the way is hung one higher.
+        // Path halving.
         parent[top as usize] = parent[parent[top as usize] as usize];
         top = parent[top as usize];
     }

@@ -20,7 +20,7 @@ struct Block {
 }
 
 impl Conductances {
-    /// No conductance between so many terminals, of which those of a group are of one body.
+    /// Zero conductances between this number of terminals, grouped by body.
     pub(crate) fn new<'a>(count: usize, groups: impl IntoIterator<Item = &'a [usize]>) -> Self {
         let mut places = vec![None; count];
         let mut blocks = Vec::new();
@@ -112,5 +112,5 @@ impl Conductances {
     }
 }
 
-/// Conductances below this share of the largest may be rounding.
+/// Conductances below this fraction of the largest may be rounding.
 pub(crate) const ROUNDING: f64 = 1e-12;

@@ -14,12 +14,12 @@ pub enum JouleHeat {
     Share(f64),
     /// A material of the body has no *JOULE HEAT FRACTION: its line, and its name.
     Unsaid(Span, Name),
-    /// One share does not do for the body: the line that says so, and why.
+    /// A single fraction cannot represent the body: the line and the reason.
     NotOne(Span, String),
 }
 
 impl Body {
-    /// The heat that a current makes in each body, in the order of [`parts`](Self::parts).
+    /// The Joule heat of each body, in the order of [`parts`](Self::parts).
     pub(crate) fn joule_heat(&self) -> Vec<JouleHeat> {
         let mut used: Vec<BTreeSet<usize>> = vec![BTreeSet::new(); self.parts.len()];
         for block in &self.mesh.elements {
@@ -36,7 +36,7 @@ impl Body {
     }
 }
 
-/// The share that all materials have; `Err` is the reason why there is none.
+/// The fraction common to all materials; `Err` is the reason why there is none.
 fn shared(materials: &[&BodyMaterial]) -> Result<JouleHeat, JouleHeat> {
     let mut found: Option<(f64, &Name)> = None;
     for BodyMaterial { name, span, joule_heat_fraction, .. } in materials {
@@ -54,6 +54,6 @@ fn shared(materials: &[&BodyMaterial]) -> Result<JouleHeat, JouleHeat> {
             return Err(not_one(format!("*{keyword} is {first:?} in `{of}` and {share:?} in `{name}`, in one body")));
         }
     }
-    // Every body has elements; where their material is not defined, that is a fault of its own.
+    // Every body has elements; an undefined material is a separate fault.
     Ok(JouleHeat::Share(found.map_or(0.0, |(share, _)| share)))
 }

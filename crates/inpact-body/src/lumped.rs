@@ -211,7 +211,7 @@ impl Body {
                 Err(fault) => faults.push(fault.of(self.bodies_of(block))),
             }
         }
-        // Of one that several blocks have the first is kept, with the bodies of all.
+        // A fault shared by several blocks is kept once, with the bodies of all.
         let mut met: HashMap<(Option<Span>, String), usize> = HashMap::new();
         let mut kept: Vec<BodyFault> = Vec::new();
         for fault in faults {
@@ -232,7 +232,7 @@ impl Body {
         Ok(found)
     }
 
-    /// A conductivity in the axes of the coordinates; refuses directions that are not known.
+    /// A conductivity in global axes; rejects unknown material axes.
     fn in_axes(
         &self,
         conductivity: Conductivity,
@@ -257,7 +257,7 @@ impl Body {
         Err(BodyFault::at(&UNUSABLE_PROPERTY, block.section, message))
     }
 
-    /// The bodies with at least two terminals, which are all that conduct between terminals, each with these.
+    /// The bodies with at least two terminals, each with these; only they conduct between terminals.
     fn groups(&self) -> Vec<(usize, &[usize])> {
         let all = self.parts.iter().map(|part| part.terminals.as_slice()).enumerate();
         all.filter(|(_, terminals)| 1 < terminals.len()).collect()
@@ -272,7 +272,7 @@ impl Body {
         self.part_of.iter().map(|part| self.parts[*part as usize].terminals.len() < 2).collect()
     }
 
-    /// Nodes whose value is given: those of terminals, and of bodies that nothing is asked of.
+    /// Nodes with given values: those of terminals, and of bodies without a request.
     fn held_nodes(&self) -> Vec<bool> {
         let mut is_held = self.idle();
         for node in self.terminals.iter().flat_map(|terminal| &terminal.nodes) {
@@ -286,7 +286,7 @@ impl Body {
         let nodes = self.mesh.points.len();
         let groups = self.groups();
         let is_held = self.held_nodes();
-        // The last terminal of a body has what the others leave of 1; bodies are solved together, a terminal of each at a time.
+        // The potential of the last terminal of a body is 1 minus the others; bodies are solved together, one terminal of each at a time.
         let rounds = groups.iter().map(|(_, group)| group.len() - 1).max().unwrap_or(0);
         let mut fields = vec![vec![0.0; nodes]; rounds];
         for (round, field) in fields.iter_mut().enumerate() {
@@ -307,7 +307,7 @@ impl Body {
             }
             potentials[*last] = left;
         }
-        // What is left of 1 where another terminal is at 1 is 0 to the last digit, since held values are whole.
+        // Where another terminal is at 1 the remainder is exactly 0, since held values are integers.
         Ok((potentials, solution))
     }
 
@@ -363,7 +363,7 @@ impl Body {
             let inverse = inverse(&resistances, count).map_err(|_| {
                 Error::without_place("the body was not solved: its resistances are not positive definite".to_owned())
             })?;
-            // To the last terminal goes what the rows do not have among themselves.
+            // The conductance to the last terminal follows from the row sums.
             let entry = |i: usize, j: usize| inverse[i * count + j];
             for i in 0..count {
                 for j in i + 1..count {
@@ -396,7 +396,7 @@ impl Body {
     ) -> Result<(OfNodes, Vec<MeshNote>), Error> {
         let mut left_out: Vec<MeshNote> = Vec::new();
         let mut heats = Vec::new();
-        // What is held of a body is known where it is of all its elements.
+        // The capacity of a body is known where it is known for all its elements.
         let mut is_known = vec![field == BodyField::Thermal; self.parts.len()];
         for block in blocks {
             let material = &self.mesh.materials[block.material];
@@ -455,7 +455,7 @@ struct OfNodes {
     is_known: Vec<bool>,
 }
 
-/// A tensor whose components are along some axes, in those of the coordinates: k_ij e_i e_j.
+/// A tensor with components along some axes, transformed to global axes: k_ij e_i e_j.
 fn along(k: &Conductivity, axes: &[Point; 3]) -> Conductivity {
     let component = |a: usize, b: usize| {
         (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| k[i][j] * axes[i][a] * axes[j][b]).sum()
@@ -493,7 +493,7 @@ fn heat_of(material: &BodyMaterial, temperature: Option<f64>) -> Result<f64, Bod
 }
 
 /// The differences of the mean temperatures of terminals, by a unit of flow through each, the upper triangle: b·y + c·x − a(x, y) of fields x and y that the sources b
-/// and c have, of which an error is a product of theirs.
+/// and c produce, whose error is a product of theirs.
 fn resistances(matrix: &Matrix, of_body: &NodesOfBody<'_>, fields: &[&[f64]], sources: &[Vec<f64>]) -> Vec<f64> {
     let count = fields.len();
     let product = |source: &[f64], field: &[f64]| {
@@ -511,7 +511,7 @@ fn resistances(matrix: &Matrix, of_body: &NodesOfBody<'_>, fields: &[&[f64]], so
     resistances
 }
 
-/// The largest share, over all temperatures of some terminals, by which even flows conduct less than one temperature a terminal.
+/// The largest fraction, over all temperatures of some terminals, by which uniform flows conduct less than isothermal terminals.
 ///
 /// With S and L the matrices of both without the last terminal, it is 1 − 1/λ for the largest eigenvalue λ of L⁻¹S. As means are less than single values, S ≥ L: no
 /// eigenvalue is below 1, so that λ is at most the sum of all of them, the trace, less 1 for each of the others.
@@ -545,7 +545,7 @@ fn inverse(upper: &[f64], count: usize) -> Result<Vec<f64>, inpact_network::Erro
         let mut unit = vec![0.0; count];
         unit[column] = 1.0;
         factor.solve(&mut unit)?;
-        // Of both halves one is kept, so that it is symmetric to the last digit.
+        // One half is copied to the other, so that it is exactly symmetric.
         for row in 0..=column {
             inverse[row * count + column] = unit[row];
             inverse[column * count + row] = unit[row];

@@ -11,10 +11,10 @@ use crate::error::Error;
 use inpact_network::ErrorKind;
 use inpact_network::linear::NoSolution;
 
-/// More unknowns than these are not factored unless they have to be.
+/// Above this number of unknowns the matrix is factored only as a fallback.
 const MOST_FACTORED: usize = 20_000;
 
-/// The largest imbalance of a node, relative to the flows through it and to what all nodes pass, of a solution that is used.
+/// The largest acceptable imbalance of a node, relative to the flows through it and through all nodes.
 const LARGEST_IMBALANCE: f64 = 1e-9;
 
 /// How the equations of a body were solved.
@@ -49,11 +49,11 @@ pub(crate) struct Equations<'a> {
 }
 
 impl Equations<'_> {
-    /// Finds the values of the nodes that are not held, from those at the start.
+    /// Computes the values of the free nodes, from initial ones.
     ///
     /// # Errors
     ///
-    /// Memory runs out, or rounding leaves nothing of the solution.
+    /// Memory runs out, or rounding destroys the solution.
     pub(crate) fn solve(&self, fields: &mut [Vec<f64>]) -> Result<Solution, Error> {
         let unknowns = self.is_held.iter().filter(|is_held| !**is_held).count();
         let entries = self.matrix.values.len();
@@ -80,7 +80,7 @@ impl Equations<'_> {
         Ok(Solution { method, unknowns, entries, imbalance })
     }
 
-    /// The flow out of each node beside that from outside; 0 for held nodes.
+    /// The residual flow out of each node; 0 for held nodes.
     fn residual(&self, field: &[f64], sources: &[f64]) -> Vec<f64> {
         let mut residual = self.matrix.flows(field);
         for ((residual, source), is_held) in residual.iter_mut().zip(sources).zip(self.is_held) {
@@ -110,7 +110,7 @@ impl Equations<'_> {
     }
 }
 
-/// Whether a solution can be given; one with a NaN cannot.
+/// Whether a solution is acceptable; one with a NaN is not.
 fn is_balanced(imbalance: f64) -> bool {
     imbalance <= LARGEST_IMBALANCE
 }

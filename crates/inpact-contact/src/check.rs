@@ -25,7 +25,7 @@ pub fn check_geometry(mesh: &Mesh, model: &Model) -> Vec<Diagnostic> {
         let SurfaceKind::Faces(_) = &mesh.surfaces[pair.master].kind else { continue };
         let Ok(nodes) = mesh.contact(pair, thickness) else { continue };
         let checked = Checked { mesh, model, pair, interaction, nodes };
-        // Behind a surface on its wrong side everything else is wrong as well.
+        // With a surface on its wrong side all other checks are meaningless.
         match checked.wrong_side() {
             Some(finding) => found.push(finding),
             None => found.extend(
@@ -70,7 +70,7 @@ impl Checked<'_> {
         self.mesh.nodes[node.node.index()].to_string()
     }
 
-    /// The slave nodes with a face across from them.
+    /// The slave nodes with an opposite face.
     fn across(&self) -> impl Iterator<Item = (&ContactNode, &Projection)> {
         self.nodes.iter().filter_map(|node| Some((node, across(node)?)))
     }
@@ -121,7 +121,7 @@ impl Checked<'_> {
         Some(finding)
     }
 
-    /// G003: slave nodes deeper in the master than its faces are long.
+    /// G003: slave nodes deeper in the master than the length of its faces.
     fn deep_overclosure(&self) -> Option<Diagnostic> {
         let SurfaceKind::Faces(master) = &self.mesh.surfaces[self.pair.master].kind else { return None };
         let deep = self.across().filter_map(|(node, across)| {
@@ -235,7 +235,7 @@ impl Checked<'_> {
     }
 }
 
-/// The longest distance between corners that follow each other.
+/// The longest distance between consecutive corners.
 fn longest(corners: &[Point]) -> f64 {
     let distance = |a: &Point, b: &Point| (0..3).map(|k| (a[k] - b[k]).powi(2)).sum::<f64>().sqrt();
     let edges = corners.iter().zip(corners.iter().cycle().skip(1));

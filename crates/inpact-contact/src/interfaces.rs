@@ -126,7 +126,7 @@ impl NodeRows<'_> {
                 projections: Vec::new(),
             };
             for (row, node) in pair.contact(mesh, state)?.iter().enumerate() {
-                // A node of several pairs is one node of a scene, whatever its rows are called in a table of histories.
+                // A node of several pairs is one node of a scene, whatever the names of its rows in a table of histories.
                 let name = mesh.nodes[node.node.index()].to_string();
                 let at_master = across_name(&name, master_name);
                 if let (Some(nearest), SurfaceKind::Faces(faces)) = (&node.across, &master.kind) {
@@ -218,7 +218,7 @@ impl Interfaces {
 impl WeightedMean {
     /// The mean of values with their weights; `None` without any.
     ///
-    /// It is found by differences from the first, so that a value that all have is the mean, to the last digit.
+    /// It is computed by differences from the first, so that the mean of equal values is exact.
     fn of(values: impl Iterator<Item = (f64, f64)>) -> Option<Self> {
         let mut found: Option<(Self, f64)> = None;
         let (mut weights, mut sum) = (0.0, 0.0);

@@ -28,14 +28,14 @@ pub trait ResultFile {
     /// The reason why it cannot be read.
     type Error: From<Error>;
 
-    /// Hands every state to `take` in the order of the file, with what the file has said before it that belongs to none, until `take` asks for no more; gives what belongs to no state.
+    /// Passes every state to `take` in the order of the file, with the preceding data that belong to no state, until `take` stops; returns the data that belong to no state.
     ///
     /// # Errors
     /// It cannot be read, or not to its end.
     fn frames(&self, take: &mut dyn FnMut(&Results, &Frame) -> ControlFlow<()>) -> Result<Results, Self::Error>;
 }
 
-/// Results at hand.
+/// Results in memory.
 impl ResultFile for Results {
     type Error = Error;
 
@@ -182,7 +182,7 @@ impl<'a> Join<'a> {
         Ok(())
     }
 
-    /// Finds out which nodes of the mesh the labels of a file are, from what it says before its first state and in it.
+    /// Matches the labels of a file with nodes of the mesh, from the data before and in its first state.
     fn begin<F: ResultFile>(
         &self,
         file: &Arc<str>,
@@ -194,7 +194,7 @@ impl<'a> Join<'a> {
             if let Some(frame) = first {
                 surfaces.take(frame);
             }
-            // Without surfaces by their faces, the regions of contact say which nodes are on one, in whichever state.
+            // Without surfaces given by faces, the contact regions of all states determine which nodes are on one.
             if head.surfaces.is_empty() {
                 results.frames(&mut |_, frame| {
                     surfaces.take(frame);
@@ -215,7 +215,7 @@ impl<'a> Join<'a> {
         })
     }
 
-    /// Takes what a frame says; whether that is anything.
+    /// Adds the values of a frame; whether there are any.
     fn frame(&mut self, frame: &Frame, of_file: &mut OfFile) -> bool {
         let moment = match frames::moment(frame, &self.mesh.steps) {
             Ok(moment) => moment,
@@ -263,7 +263,7 @@ impl<'a> Join<'a> {
                 Rows::Elements(_) => "is of elements",
                 _ => "is of the pair as a whole",
             };
-            // The file says the force of a pair, which nobody takes for one of nodes.
+            // The force of a pair, which is not a value of nodes.
             if !matches!(field.rows, Rows::Whole) {
                 of_file.note(format!("{} {what}, not of nodes: not used", field.name));
             }
@@ -288,7 +288,7 @@ impl<'a> Join<'a> {
             .enumerate()
             .filter_map(|(row, label)| Some((row, of_file.map.node(&field.region, pair, *label)?)))
             .collect();
-        // A list of what is in contact says something even where it is empty.
+        // An empty list of nodes in contact is also information.
         if rows.is_empty() && !(is_of_contact && quantities::is_of_calculix(of_file.format)) {
             return;
         }
@@ -304,11 +304,11 @@ impl<'a> Join<'a> {
         }
     }
 
-    /// Takes what a field says of a pair as a whole: its area in contact, or the heat through one of its surfaces; whether it says that.
+    /// Adds the values of a pair as a whole: its area in contact, or the heat through one of its surfaces; whether there are any.
     fn total(&self, field: &Field, of_file: &mut OfFile, building: &mut Building) -> bool {
         let value = |name: &str| field.column(name).and_then(|column| column.values.first()).copied();
         let of_pair = value("CAREA").map(|area| (TotalQuantity::ContactArea, "CAREA", area));
-        // Heat that leaves the body does not go into it.
+        // Heat that leaves the body is negative heat into it.
         let of_surface = value("SURFACE_FLUX").map(|flux| (TotalQuantity::HeatIntoSlave, "SURFACE_FLUX", -flux));
         let Some((quantity, name, value)) = of_pair.or(of_surface) else { return false };
         let found = match quantity {
@@ -352,7 +352,7 @@ impl<'a> Join<'a> {
             );
             return Err(Error::result_files(message));
         }
-        // The sort is stable: what has one time stays in the order of the files.
+        // The sort is stable: frames of equal time stay in the order of the files.
         self.building.sort_by(|a, b| a.moment.time.unwrap_or_default().total_cmp(&b.moment.time.unwrap_or_default()));
         frames::slip_rates(&mut self.building);
         let mut notes: BTreeSet<String> = BTreeSet::new();
@@ -389,9 +389,9 @@ struct OfFile {
     file: Arc<str>,
     format: Format,
     map: NodeMap,
-    /// The nodes that something was said of.
+    /// The nodes with values.
     used: BTreeSet<NodeId>,
-    /// Fields that no node table has a place for.
+    /// Fields without a counterpart in node tables.
     not_needed: BTreeSet<String>,
     /// Messages, each once.
     notes: BTreeSet<String>,

@@ -7,7 +7,7 @@ use inpact_geometry::{ContactNode, ErrorKind, NodeId, Point, Projection, Vector}
 use inpact_parser::mesh::{AreasOf, Mesh, MeshPair, Sliding, SurfaceKind};
 use std::borrow::Cow;
 
-/// A pair with what the solver starts from.
+/// A pair with its initial state.
 pub(crate) struct Pair<'a> {
     pub(crate) of: &'a MeshPair,
     /// Its position in [`Mesh::pairs`].
@@ -17,7 +17,7 @@ pub(crate) struct Pair<'a> {
     pub(crate) names: Vec<String>,
     pub(crate) summary: PairSummary,
     thickness: f64,
-    /// The moves of ADJUST: before anything else, and no rule for later states.
+    /// The displacements of ADJUST, applied at the start only.
     adjusted: Vec<(NodeId, Vector)>,
 }
 
@@ -67,7 +67,7 @@ impl<'a> Pair<'a> {
         Ok(Cow::Owned(contact))
     }
 
-    /// Small sliding: what is across at the start stays across, and areas are those of the start.
+    /// Small sliding: the initial projections and areas are kept.
     fn slid(&self, mesh: &Mesh, moved: &[Vector]) -> Vec<ContactNode> {
         let mut contact = self.start.clone();
         for node in &mut contact {
@@ -82,7 +82,7 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// The moves of slave nodes onto the master by ADJUST (L).
+/// The displacements of slave nodes onto the master by ADJUST (L).
 fn adjusted(mesh: &Mesh, pair: &MeshPair, thickness: f64) -> Result<Vec<(NodeId, Vector)>, inpact_geometry::Error> {
     let (Some(within), None) = (pair.adjust, pair.clearance) else { return Ok(Vec::new()) };
     let contact = mesh.contact(&without_start(pair), thickness)?;
@@ -93,7 +93,7 @@ fn adjusted(mesh: &Mesh, pair: &MeshPair, thickness: f64) -> Result<Vec<(NodeId,
     Ok(contact.into_iter().filter_map(way).collect())
 }
 
-/// The pair without what holds at the start only.
+/// The pair without options that apply at the start only.
 fn without_start(pair: &MeshPair) -> MeshPair {
     MeshPair { adjust: None, clearance: None, ..pair.clone() }
 }
@@ -107,7 +107,7 @@ pub(crate) fn across(node: &ContactNode) -> Option<&Projection> {
     node.across.as_ref().filter(|across| across.projects)
 }
 
-/// A field of the master at the place across; `None` where a node that counts there has no value.
+/// A field of the master at the projected point; `None` where a node with a weight has no value.
 pub(crate) fn interpolated<const N: usize>(
     mesh: &Mesh,
     pair: &MeshPair,
@@ -120,7 +120,7 @@ pub(crate) fn interpolated<const N: usize>(
     let nodes: Vec<(NodeId, f64)> =
         face.nodes.iter().copied().zip(across.weights(face.shape)).filter(|(_, weight)| *weight != 0.0).collect();
     let first = value(nodes.first()?.0)?;
-    // Differences from one node: a field that is the same in all of them stays what it is, to the last digit.
+    // By differences from one node, so that a constant field is reproduced exactly.
     for (node, weight) in nodes {
         let value = value(node)?;
         for k in 0..N {

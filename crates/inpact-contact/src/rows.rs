@@ -31,9 +31,9 @@ pub struct NodeRows<'a> {
 /// Naming of the file of a quantity in a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum FileNaming {
-    /// Not at all: there is but one.
+    /// Not at all: there is only one.
     Omitted,
-    /// Behind the quantity: `COPEN@job.fil`.
+    /// After the quantity: `COPEN@job.fil`.
     Appended,
 }
 
@@ -240,7 +240,7 @@ impl<'a> NodeRows<'a> {
     }
 }
 
-/// Adds where the number of a column comes from: `clearance=COPEN`.
+/// Adds the source of a column: `clearance=COPEN`.
 fn push_source(text: &mut String, column: Column, origin: Origin<'_>, naming: FileNaming) {
     if !text.is_empty() {
         text.push(' ');
@@ -286,7 +286,7 @@ fn file_naming(states: &[State]) -> Option<FileNaming> {
     first.map(|_| FileNaming::Omitted)
 }
 
-/// Says which slave nodes have nothing across at the start.
+/// Notes the slave nodes without an opposite face at the start.
 fn without_master(mesh: &Mesh, pair: &Pair<'_>, states: &[State]) -> Option<MeshNote> {
     let mut beside = pair.start.iter().filter(|node| across(node).is_none());
     let first = &mesh.nodes[beside.next()?.node.index()];

@@ -22,14 +22,14 @@ pub(crate) fn columns(states: &[State]) -> Vec<Column> {
     columns
 }
 
-/// The order of columns: contact, fields, what else there is.
+/// The order of columns: contact, fields, others.
 fn rank(column: Column) -> usize {
     let of_contact = ContactQuantity::ALL.iter().position(|quantity| quantity.column() == column);
     let of_fields = || NodeQuantity::of(column).map(|_| ContactQuantity::ALL.len());
     of_contact.or_else(of_fields).unwrap_or(ContactQuantity::ALL.len() + 1)
 }
 
-/// The number of a slave node in a column, and where it comes from; `None` where it is not known.
+/// The number of a slave node in a column, and its source; `None` where it is unknown.
 pub(crate) fn number<'a>(
     mesh: &Mesh,
     pair: &Pair<'_>,

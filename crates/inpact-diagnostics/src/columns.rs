@@ -3,7 +3,7 @@
 //! Editors name a place by its line and a number of units from the start of that line; which units is agreed on with each editor.
 //! Text that is not valid UTF-8 is counted as [`Position`](crate::span::Position) counts it: continuation bytes count as nothing.
 
-/// The widest column of a table in text.
+/// The maximum width of a column of a text table.
 const WIDEST: usize = 200;
 
 /// The width in characters of a column of a table in text: that of its longest cell, up to 200. A longer cell overflows.
@@ -50,7 +50,7 @@ impl ColumnUnit {
             if !begins_character(*byte) {
                 continue;
             }
-            // The units of the character before are known now.
+            // The units of the previous character are known now.
             if units < passed {
                 return start;
             }

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
 
-/// The most findings of one rule in one table; more are counted, not kept.
+/// The maximum number of findings of one rule in one table; more are only counted.
 const MOST_OF_ONE_RULE: usize = 20;
 
 /// A place in a table or a scene as known to a reader; parts that do not apply are `None`.

@@ -30,7 +30,7 @@ pub enum Shares {
 pub enum Extent<'a> {
     /// Faces are areas in space.
     Spatial,
-    /// Faces are lines of a plane mesh, with one thickness (L) a face.
+    /// Faces are lines of a plane mesh, with one thickness (L) per face.
     Plane(&'a [f64]),
     /// Faces are lines of an axisymmetric mesh, whose axis is x = 0: 2πx times the length.
     Axisymmetric,
@@ -103,7 +103,7 @@ pub fn shape_function_areas(placed: &Placed<'_>) -> Result<Vec<f64>, Error> {
     Ok(areas)
 }
 
-/// Refuses extents that do not suit the faces.
+/// Rejects extents that do not suit the faces.
 fn suits(placed: &Placed<'_>, extent: Extent<'_>) -> Result<(), Error> {
     let surface = placed.surface();
     if !surface.is_empty() && surface.is_line() == matches!(extent, Extent::Spatial) {

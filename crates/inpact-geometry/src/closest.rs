@@ -9,20 +9,20 @@ use crate::patch::Patch;
 use crate::vector::{add, dot, norm, scale, sub};
 use crate::{Point, Vector};
 
-/// The most subdivisions of a face. On a face so wildly bent, or folded, that a 32nd of it has two minima, the better of those found is taken:
-/// no proof is given then that it is the least.
+/// The maximum number of subdivisions of a face. On a face so strongly bent, or folded, that a 32nd of it has two minima, the better of those found is taken:
+/// it is then not proven to be the global minimum.
 const CUTS: u32 = 5;
 
-/// Newton steps at most; it takes four to six where the face is nearly flat.
+/// The maximum number of Newton steps; it takes four to six where the face is nearly flat.
 const STEPS: u32 = 60;
 
-/// The most rounds of trials where derivatives decide nothing.
+/// The maximum number of rounds of pattern search where derivatives vanish.
 const MOST_TRIALS: u32 = 1000;
 
-/// The most further starts where derivatives decide nothing.
+/// The maximum number of further starts where derivatives vanish.
 const MOST_ROUGH: usize = 32;
 
-/// The distance from an edge (in ξ and η, which are of size 1) within which a place is on it: the rounding of a clipped step.
+/// The distance from an edge (in ξ and η, of magnitude 1) within which a point is on it: the rounding of a clipped step.
 const ON_EDGE: f64 = 1e-14;
 
 /// The closest point of a face.
@@ -78,12 +78,12 @@ impl Patch {
                 parts.extend(part.quarters().into_iter().map(|quarter| (quarter, cuts + 1)));
             }
         }
-        // Where derivatives have decided nothing, all starts close to the best are tried further, the nearest first.
+        // Where derivatives vanish, all starts close to the best are searched further, the nearest first.
         rough.sort_by(|a, b| a.1.total_cmp(&b.1));
         for (place, distance) in rough.into_iter().take(MOST_ROUGH) {
             let Some((_, least)) = best.filter(|(_, least)| distance <= 1.01 * least) else { break };
             let (place, distance) = search.by_trial(place, distance);
-            // Less than that is rounding, which trials would follow for half the digits of a place.
+            // Less than that is rounding, which a search would follow for half the digits of a point.
             if distance < least * (1.0 - 1e-12) {
                 let sharper = search.minimum_in(&Part::whole(self), place);
                 let sharp = norm(search.to_point(sharper));
@@ -158,7 +158,7 @@ impl Part {
     }
 }
 
-/// Bounds of a part, before it is searched.
+/// Bounds of a part before its search.
 struct About {
     /// No point of it is nearer than this.
     below: f64,
@@ -172,7 +172,7 @@ struct Search<'a> {
     point: Vector,
     /// Bounds of the second derivatives over the whole face: by ξ twice, by ξ and η, by η twice.
     curvature: [f64; 3],
-    /// By how much these differ over the whole face, a unit of ξ and η together.
+    /// Their Lipschitz constants over the whole face, per unit of ξ and η together.
     variation: f64,
     /// The rounding error of a difference of points.
     rounding: f64,
@@ -199,7 +199,7 @@ impl<'a> Search<'a> {
         let distance = norm(away);
         let [along, across] = self.patch.tangents(centre);
         let [by_xx, by_xy, by_yy] = self.curvature;
-        // Taylor's formula about the centre: what is left after the tangents.
+        // Taylor's formula about the centre: the remainder after the tangents.
         let rest = 0.5 * (by_xx * reach_x * reach_x + 2.0 * by_xy * reach_x * reach_y + by_yy * reach_y * reach_y);
         let below = if distance == 0.0 {
             0.0
@@ -215,7 +215,7 @@ impl<'a> Search<'a> {
         };
         let is_line = self.patch.shape.is_line();
         let (xx, xy, yy) = (dot(along, along), dot(along, across), dot(across, across));
-        // The least singular value of the tangents at the centre, less by how much they turn: the least anywhere in the part.
+        // The least singular value of the tangents at the centre minus a bound of their change: a lower bound in the part.
         let half = 0.5 * (xx + yy);
         let largest = half + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
         let determinant = (xx * yy - xy * xy).max(0.0);
@@ -228,7 +228,7 @@ impl<'a> Search<'a> {
         };
         let turn = (by_xx * reach_x + by_xy * reach_y).hypot(by_xy * reach_x + by_yy * reach_y);
         let metric = (singular - turn).max(0.0);
-        // The curvature term at the centre, and what it can grow by.
+        // The curvature term at the centre, and a bound of its growth.
         let moved = norm(along) * reach_x + norm(across) * reach_y + rest;
         let drift = distance * self.variation * (reach_x + reach_y);
         let curvatures = self.patch.curvatures(centre);
@@ -240,7 +240,7 @@ impl<'a> Search<'a> {
         About { below, one_minimum: curved < metric * metric }
     }
 
-    /// A minimum of the distance in the part, from a place in it.
+    /// A minimum of the distance in the part, from a start in it.
     fn minimum_in(&self, part: &Part, from: [f64; 2]) -> [f64; 2] {
         let sides = part.sides();
         let mut place = from;
@@ -279,8 +279,8 @@ impl<'a> Search<'a> {
         self.patch.shape.clamp(place)
     }
 
-    /// Goes on from a place by trying places around it, nearer and nearer: where a face is folded to a point or a line, derivatives vanish there and say
-    /// nothing of the way down.
+    /// Pattern search around a point with decreasing step: where a face is folded to a point or a line, derivatives vanish there and give
+    /// no direction of descent.
     fn by_trial(&self, place: [f64; 2], distance: f64) -> ([f64; 2], f64) {
         const AROUND: [[f64; 2]; 8] =
             [[1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0], [1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0]];
@@ -340,7 +340,7 @@ impl<'a> Search<'a> {
                 if on.iter().all(|side| dot2(side.normal, newton) <= 0.0) {
                     return Some(newton);
                 }
-                // Newton's step leaves over an edge that the gradient does not: the minimum of the quadratic model within lies on that edge.
+                // The Newton step crosses an edge that the gradient does not: the minimum of the quadratic model within lies on that edge.
                 let curvature = quadratic(full, gradient);
                 let curvature = if 0.0 < curvature { curvature } else { quadratic(flat, gradient) };
                 let length = dot2(gradient, gradient) / curvature;
@@ -350,7 +350,7 @@ impl<'a> Search<'a> {
                     let reversed = [-tangent[0], -tangent[1]];
                     [tangent, reversed].into_iter().filter(inside).find_map(along)
                 });
-                // Whichever falls more, by that model.
+                // Whichever decreases more, by that model.
                 let fall = |direction: &[f64; 2]| -dot2(*direction, gradient);
                 on_edge.chain(steepest).max_by(|a, b| fall(a).total_cmp(&fall(b)))
             }
@@ -358,7 +358,7 @@ impl<'a> Search<'a> {
                 let tangent = [-side.normal[1], side.normal[0]];
                 along(tangent).or_else(|| along([-tangent[0], -tangent[1]]))
             }
-            // A corner: along whichever of its edges the distance falls.
+            // A corner: along whichever of its edges the distance decreases.
             _ => on.iter().find_map(|side| {
                 let tangent = [-side.normal[1], side.normal[0]];
                 [tangent, [-tangent[0], -tangent[1]]].into_iter().filter(inside).find_map(along)
@@ -368,7 +368,7 @@ impl<'a> Search<'a> {
 }
 
 impl crate::FaceShape {
-    /// The place, brought back onto the reference face where rounding left it beyond an edge.
+    /// The point, projected back onto the reference face where rounding left it beyond an edge.
     fn clamp(self, [x, y]: [f64; 2]) -> [f64; 2] {
         match self.corners() {
             2 => [x.clamp(-1.0, 1.0), 0.0],
@@ -393,7 +393,7 @@ fn quadratic([xx, xy, yy]: [f64; 3], t: [f64; 2]) -> f64 {
     xx * t[0] * t[0] + 2.0 * xy * t[0] * t[1] + yy * t[1] * t[1]
 }
 
-/// The matrix with a little of its trace on its diagonal: where a face is folded to a line.
+/// The matrix regularised by a little of its trace on the diagonal, for a face folded to a line.
 fn damped([xx, xy, yy]: [f64; 3]) -> [f64; 3] {
     let little = 1e-10 * (xx + yy);
     [xx + little, xy, yy + little]
@@ -408,9 +408,9 @@ fn solve([xx, xy, yy]: [f64; 3], gradient: [f64; 2]) -> Option<[f64; 2]> {
     (definite && solution[0].is_finite() && solution[1].is_finite()).then_some(solution)
 }
 
-/// A box that holds the whole face, its bulge between the nodes too: corners of what the face can reach.
+/// A bounding box of the whole face, including its bulge between the nodes.
 pub(crate) fn bounds(patch: &Patch) -> (Point, Point) {
-    // Bernstein and Bézier: a polynomial lies within the hull of its control points.
+    // Bernstein–Bézier: a polynomial lies within the convex hull of its control points.
     let c = &patch.coefficients;
     let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
     let mut include = |x: Vector| {

@@ -71,7 +71,7 @@ impl SolidElement {
         into.conduction.fill(0.0);
         self.each_point(points, into, |point, columns, determinant, into| {
             let inverse = determinant.recip();
-            // Rows of the inverse transposed: what turns slopes on the reference element into gradients.
+            // Rows of the inverse transpose of the Jacobian, which maps derivatives on the reference element to gradients.
             let turned = [cross(columns[1], columns[2]), cross(columns[2], columns[0]), cross(columns[0], columns[1])];
             let mut gradients = [[0.0; 3]; MAX_SOLID_NODES];
             for (gradient, slope) in gradients.iter_mut().zip(&point.slopes).take(n) {
@@ -110,7 +110,7 @@ impl SolidElement {
         if points.len() != n {
             return Err(ErrorKind::Values { what: "points", expected: n, found: points.len() }.into());
         }
-        // From the first node, so that a mesh far from the origin loses nothing more.
+        // Relative to the first node, so that a mesh far from the origin loses no further digits.
         let mut places = [[0.0; 3]; MAX_SOLID_NODES];
         for (place, point) in places.iter_mut().zip(points) {
             *place = sub(*point, points[0]);

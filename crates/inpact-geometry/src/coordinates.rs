@@ -57,7 +57,7 @@ impl<'a> Placed<'a> {
     }
 }
 
-/// The first coordinate that is too large, infinite or no number.
+/// The first coordinate that is too large, infinite or NaN.
 pub(crate) fn finite(point: Point) -> Result<(), f64> {
     point.into_iter().try_for_each(|x| if (-LARGEST..=LARGEST).contains(&x) { Ok(()) } else { Err(x) })
 }

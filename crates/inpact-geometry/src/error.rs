@@ -41,7 +41,7 @@ pub enum ErrorKind {
     /// More faces or nodes than can be numbered.
     #[error("a surface has more than {} faces or nodes of faces", u32::MAX)]
     TooLarge,
-    /// A face names a node that there is no point of.
+    /// A face refers to a node without a point.
     #[error("node {} has no point: there are {points} points", node.0)]
     NoPoint {
         /// The node.
@@ -65,7 +65,7 @@ pub enum ErrorKind {
         /// Its first coordinate.
         radius: f64,
     },
-    /// Faces that are lines were said to be areas, or the other way round.
+    /// Faces that are lines were declared as areas, or vice versa.
     #[error("faces that are lines need a thickness or an axis, and faces that are areas have neither")]
     Extent,
     /// Another number of values than of faces or nodes.
@@ -81,7 +81,7 @@ pub enum ErrorKind {
     /// A text names no face.
     #[error("expected a face: `S1` to `S6`, `SPOS` or `SNEG`")]
     FaceLabel,
-    /// A solid element is inside out or flat.
+    /// A solid element is inverted or flat.
     #[error(
         "the element is inside out or flat: expected a Jacobian determinant above 0 at its integration points, found {determinant:?}"
     )]

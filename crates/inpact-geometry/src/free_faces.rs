@@ -21,7 +21,7 @@ use std::hash::{BuildHasher, Hash, Hasher};
 #[derive(Debug, Default)]
 pub struct FreeFaces {
     recent: Recent,
-    /// Faces that were waiting for long.
+    /// Faces pending for long.
     older: HashMap<Corners, Owner, Mixing>,
 }
 
@@ -30,14 +30,14 @@ pub struct FreeFaces {
 struct Corners([u32; 4]);
 
 impl Corners {
-    /// Those of no face: the corners of a face differ.
+    /// An invalid key: the corners of a face differ.
     const NONE: Self = Self([0; 4]);
 
-    /// The corners, each once; `None` where so many coincide that the face has no area.
+    /// The distinct corners; `None` where so many coincide that the face is degenerate.
     fn of(mut nodes: [u32; 4], count: usize) -> Option<Self> {
         nodes.sort_unstable();
         let [a, b, c, d] = nodes;
-        // Most faces have three or four corners that differ, and the largest number is that of no node.
+        // Most faces have three or four distinct corners, and the largest number is not a node.
         let differ = if count == 4 { c < d } else { d == u32::MAX };
         if 3 <= count && a < b && b < c && differ {
             return Some(Self(nodes));
@@ -54,42 +54,42 @@ impl Corners {
     }
 }
 
-/// The element that a face belongs to, and its name there; without a name it is not wanted.
+/// The element of a face, and its label there; without a label it is not requested.
 #[derive(Debug, Clone, Copy)]
 struct Owner {
     element: u64,
     label: Option<FaceLabel>,
 }
 
-/// A face that no second element has had so far.
+/// A face without a second element so far.
 #[derive(Debug, Clone, Copy)]
 struct Waiting {
     corners: Corners,
     owner: Owner,
 }
 
-/// The number of faces that may share a place among the recent ones.
+/// The associativity of the cache of recent faces.
 const WAYS: usize = 4;
-/// The fewest and the most places for recent faces, powers of two; the most take 8 MiB.
+/// The minimum and maximum number of cache sets, powers of two; the maximum takes 8 MiB.
 const FEWEST_PLACES: usize = 1 << 6;
 const MOST_PLACES: usize = 1 << 16;
 
-/// Faces that came lately. Neighbours mostly come soon after each other and have near numbers, so that most faces come and go here, in the cache of the processor.
+/// A cache of recent faces. Neighbours are mostly close in order and number, so most faces are matched here, within the processor's cache.
 ///
-/// The place of a face follows from its smallest node: elements with near numbers use near places. Where too many share a place, the oldest has to leave.
-/// It may leave before the second element comes, so that the same face is here and among the older ones; [`FreeFaces::finish`] brings them together.
+/// The set of a face follows from its smallest node: elements with close numbers use close sets. Where a set is full, the oldest face is evicted.
+/// It may be evicted before the second element comes, so that the same face is here and among the older ones; [`FreeFaces::finish`] matches them.
 #[derive(Debug, Default)]
 struct Recent {
-    /// At each place the newest first; those without corners are free.
+    /// In each set the newest first; entries without corners are empty.
     places: Vec<[Waiting; WAYS]>,
-    /// The number of faces that had to leave since there are so many places.
+    /// The number of evictions since the last resize.
     left: usize,
 }
 
 impl Recent {
     const NOBODY: Waiting = Waiting { corners: Corners::NONE, owner: Owner { element: 0, label: None } };
 
-    /// Forgets the face if it is there, and takes it if not; gives the one that has to leave.
+    /// Removes the face if it is present, otherwise inserts it; returns the evicted one.
     fn meet(&mut self, new: Waiting) -> Option<Waiting> {
         if self.places.is_empty() {
             self.places = vec![[Self::NOBODY; WAYS]; FEWEST_PLACES];
@@ -117,7 +117,7 @@ impl Recent {
         (a ^ spread) as usize & (self.places.len() - 1)
     }
 
-    /// Whether more places would keep more faces.
+    /// Whether a larger cache would keep more faces.
     fn is_crowded(&self) -> bool {
         self.places.len() < MOST_PLACES && self.places.len() < self.left
     }
@@ -135,7 +135,7 @@ impl Hash for Corners {
     }
 }
 
-/// Makes hashes of a few multiplications, which millions of faces need; the seed is by chance, so that no deck can be made to collide.
+/// A fast multiplicative hash for millions of faces, with a random seed against crafted collisions.
 #[derive(Debug, Clone, Copy)]
 struct Mixing(u64);
 

@@ -31,7 +31,7 @@ pub(crate) fn node_normal(placed: &Placed<'_>, node: NodeId) -> Option<Vector> {
     unit(sum)
 }
 
-/// The place of a shape's node, in its own coordinates.
+/// The natural coordinates of a shape's node.
 pub(crate) fn place_of(shape: FaceShape, local: usize) -> [f64; 2] {
     let corners = shape.corner_places();
     if let Some(place) = corners.get(local) {

@@ -23,10 +23,10 @@ pub struct Overlap {
     pub faces: Vec<bool>,
 }
 
-/// The cells of a face are cut so often at least, and so often at most: 4 and 16,384 cells of a square.
+/// The minimum and maximum level of subdivision of a face: 4 and 16,384 cells of a square.
 const CUTS: [u32; 2] = [1, 7];
 
-/// How far inside its cell a point lies, as a share of half the cell: cells that share an edge with the other surface's own edge are on one side of it.
+/// The inset of a point in its cell, as a fraction of half the cell: cells along the other surface's edge are on one side of it.
 const INSIDE: f64 = 1e-4;
 
 /// The part of a surface that is opposite `other`: where a point projects onto it, and both face each other.
@@ -56,7 +56,7 @@ pub fn overlap(surface: &Placed<'_>, other: &Master<'_>) -> Result<Overlap, Erro
     if is_line(of) || is_line(other.placed().surface()) {
         return Err(ErrorKind::Extent.into());
     }
-    // Where the nodes of the other surface are across, by face: a part of it may lie between all other points that are looked at.
+    // The projections of the nodes of the other surface, by face: a small part of it may lie between all other sample points.
     let mut places: Vec<Vec<[f64; 2]>> = vec![Vec::new(); of.len()];
     let own = Master::new(*surface);
     let points = other.placed().points();
@@ -85,7 +85,7 @@ struct Part {
     functions: [f64; MAX_NODES],
 }
 
-/// A face, and what is across from it.
+/// A face, and its opposite surface.
 struct Cut<'a> {
     patch: Patch,
     other: &'a Master<'a>,
@@ -111,7 +111,7 @@ impl Cut<'_> {
         self.patch.shape().corners()
     }
 
-    /// Whether a point has the other surface across, and both face each other.
+    /// Whether a point is opposite the other surface, and both face each other.
     fn is_across(&self, place: [f64; 2]) -> bool {
         let across = self.other.project(self.patch.point(place), 0.0).filter(|across| across.projects);
         across.is_some_and(|across| {
@@ -119,7 +119,7 @@ impl Cut<'_> {
         })
     }
 
-    /// Adds what is across in a cell, in which some nodes of the other surface may lie.
+    /// Adds the opposite part of a cell, which may contain projected nodes of the other surface.
     fn visit(&mut self, cell: &Cell, cuts: u32, places: &[[f64; 2]]) {
         let corners = &cell[..self.corners()];
         let span = |k: usize| {
@@ -160,7 +160,7 @@ impl Cut<'_> {
         }
     }
 
-    /// Adds a share of a cell.
+    /// Adds a fraction of a cell.
     fn add(&mut self, cell: &Cell, share: f64) {
         let shape = self.patch.shape();
         let corners = self.corners();
@@ -182,7 +182,7 @@ impl Cut<'_> {
     }
 }
 
-/// The area of a cell as a share of the reference face.
+/// The area of a cell as a fraction of the reference face.
 fn size_of(shape: FaceShape, cell: &Cell) -> f64 {
     let [a, b, c, _] = *cell;
     let along = |p: [f64; 2]| [p[0] - a[0], p[1] - a[1]];

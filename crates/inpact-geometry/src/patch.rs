@@ -57,13 +57,13 @@ impl Patch {
         unit(self.area_vector(place))
     }
 
-    /// The normal times the area (length, of a line) that a unit of the reference face has at a place.
+    /// The normal times the area (length, for a line) per unit of the reference face at a point.
     pub(crate) fn area_vector(&self, place: [f64; 2]) -> Vector {
         let [along, across] = self.tangents(place);
         if self.shape.is_line() { [along[1], -along[0], 0.0] } else { cross(along, across) }
     }
 
-    /// The point at a place, from the face's own origin.
+    /// The point at natural coordinates, relative to the face's own origin.
     pub(crate) fn relative(&self, place: [f64; 2]) -> Vector {
         let powers = monomials(place);
         self.coefficients

@@ -78,7 +78,7 @@ impl Master<'_> {
         let (clearance, normal, overhang) = if outer {
             (along, rough, norm(sub(away, scale(along, rough))))
         } else {
-            // Below the rounding of coordinates, the direction from one to the other says nothing.
+            // Below the rounding of coordinates, the direction between the two is meaningless.
             let direction = unit(away).filter(|_| 1e-9 * longest_edge(self.placed(), face) < distance);
             let side = if along < 0.0 { -1.0 } else { 1.0 };
             (side * distance, direction.map_or(rough, |direction| scale(side, direction)), 0.0)
@@ -119,13 +119,13 @@ impl Master<'_> {
         let n = surface.face(face).shape.corners();
         let is_line = surface.is_line();
         let touches = |edge: usize| nodes[edge] == node || (!is_line && nodes[(edge + 1) % n] == node);
-        // An edge whose ends are one node is folded away: nothing is across from it, and nothing ends there.
+        // An edge with equal ends is collapsed: it has no neighbour, and is not an outer edge.
         let folded = |edge: usize| !is_line && nodes[edge] == nodes[(edge + 1) % n];
         (0..n).any(|edge| touches(edge) && !folded(edge) && surface.across(face, edge).is_none())
     }
 }
 
-/// The part of a face that a place is on: inside, edge or corner.
+/// The part of a face that contains a point: inside, edge or corner.
 enum Spot {
     Inside,
     Edge(usize),
@@ -144,7 +144,7 @@ impl Spot {
         match on[..] {
             [] => Self::Inside,
             [edge] => Self::Edge(edge),
-            // A corner lies between the edge before it and the edge of its own number.
+            // A corner lies between the previous edge and the edge of its own number.
             [first, second] => Self::Corner(if first == 0 && second + 1 == edges.len() { 0 } else { second }),
             _ => unreachable!("a place on three edges"),
         }

@@ -38,7 +38,7 @@ fn square(points: usize) -> Vec<Node> {
     nodes
 }
 
-/// Gauss and Legendre's points and weights: roots of the polynomial by Newton's iteration from Chebyshev's.
+/// Gauss–Legendre points and weights: roots of the polynomial by Newton's iteration from Chebyshev points.
 pub(crate) fn gauss(points: usize) -> Vec<(f64, f64)> {
     let n = points as f64;
     (0..points)

@@ -37,7 +37,7 @@ impl<'a> Master<'a> {
             if least < candidate.distance_2(&point).sqrt() {
                 break;
             }
-            // A bit above what was found, so that a face equally far but with a lower number is not skipped.
+            // Slightly above the distance found, so that an equally distant face with a lower number is not skipped.
             let Some(closest) = self.placed.patch(candidate.face).closest_within(point, least * (1.0 + 1e-12)) else {
                 continue;
             };
@@ -66,7 +66,7 @@ impl RTreeObject for Boxed {
 }
 
 impl PointDistance for Boxed {
-    /// To the box: no point of the face is nearer.
+    /// The distance to the box, a lower bound for the face.
     fn distance_2(&self, point: &Point) -> f64 {
         rstar::Envelope::distance_2(&self.bounds, point)
     }

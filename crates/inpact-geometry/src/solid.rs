@@ -92,7 +92,7 @@ fn tetrahedron() -> Places {
     let (near, far) = ((5.0 - root) / 20.0, (5.0 + 3.0 * root) / 20.0);
     let at = |k: usize| {
         let mut place = [near; 3];
-        // The fourth barycentric coordinate is what the others leave.
+        // The fourth barycentric coordinate is 1 minus the others.
         if let Some(coordinate) = place.get_mut(k) {
             *coordinate = far;
         }
@@ -212,7 +212,7 @@ fn wedge_functions(nodes: usize, [x, y, z]: [f64; 3]) -> Functions {
     for (end, sign) in [-1.0, 1.0].into_iter().enumerate() {
         let along = 0.5 * (1.0 + sign * z);
         for i in 0..3 {
-            // What the node in the middle of the vertical edge takes off: L(1 − ζ²)/2.
+            // The contribution of the midside node of the vertical edge: L(1 − ζ²)/2.
             let (value, slope) = if nodes == 6 { (corner[i], 1.0) } else { quadratic(corner[i]) };
             let taken = if nodes == 6 { 0.0 } else { 0.5 };
             let at = 3 * end + i;

@@ -3,7 +3,7 @@
 #[cfg(feature = "threads")]
 use rayon::prelude::*;
 
-/// Results of `work` on each of some things, in their order.
+/// Results of `work` on each item, in order.
 pub(crate) fn map<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync + Send) -> Vec<R> {
     #[cfg(feature = "threads")]
     return items.par_iter().map(work).collect();

@@ -67,7 +67,7 @@ impl Surface {
             pairs.extend(self.face(face).nodes.iter().map(|node| (*node, face)));
         }
         pairs.sort_unstable();
-        // A folded face has a node twice, but is once around it.
+        // A collapsed face has a node twice, but is listed once around it.
         pairs.dedup();
         for (node, face) in pairs {
             if self.nodes.last() != Some(&node) {
@@ -147,7 +147,7 @@ impl Surface {
     }
 }
 
-/// A position that was found to fit when the surface was made.
+/// A position, which was checked to fit when the surface was built.
 fn position(index: usize) -> u32 {
     u32::try_from(index).expect("no more than nodes of faces, which were counted in 32 bits")
 }

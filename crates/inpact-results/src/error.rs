@@ -31,9 +31,9 @@ struct Content {
 pub enum ErrorKind {
     /// The source failed.
     Source(io::Error),
-    /// The file is of no kind that is read.
+    /// The file has no supported format.
     Foreign(Problem),
-    /// The file is cut short, or damaged; of states that were handed over the last may not be whole.
+    /// The file is truncated or damaged; the last of the states passed may be incomplete.
     Unsound(Problem),
 }
 
@@ -78,7 +78,7 @@ impl Error {
     }
 }
 
-/// Joins what a reader has gathered with how it ended.
+/// Combines the results of a reader with its outcome.
 pub(crate) fn ended(results: Results, outcome: Result<(), Problem>) -> Read {
     match outcome {
         Ok(()) => Ok(results),

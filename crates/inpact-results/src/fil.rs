@@ -38,7 +38,7 @@ pub(crate) fn frames(lines: &mut LineStream<'_>, take: &mut TakeFrame<'_>) -> (R
     (reader.results, outcome)
 }
 
-/// A field that rows are added to: what it is of, and how many components it has.
+/// A field under construction: its subject and number of components.
 type FieldKey = (i64, usize, usize);
 
 struct Reader<'a, 'b> {
@@ -49,7 +49,7 @@ struct Reader<'a, 'b> {
     frame: Option<Frame>,
     /// The fields of the frame, by record key, region and number of components.
     fields: HashMap<FieldKey, usize>,
-    /// The regions met, and their numbers.
+    /// The regions so far, and their numbers.
     regions: Vec<Region>,
     region_numbers: HashMap<Region, usize>,
     set: usize,
@@ -171,7 +171,7 @@ impl<'a, 'b> Reader<'a, 'b> {
         Ok(())
     }
 
-    /// Hands the increment over, with the names that records 1940 before its end give to numbers.
+    /// Passes on the increment, with names resolved by the records 1940 before its end.
     fn end_increment(&mut self) {
         self.fields.clear();
         let Some(mut frame) = self.frame.take() else { return };
@@ -222,7 +222,7 @@ impl<'a, 'b> Reader<'a, 'b> {
         let values = self.values.as_slice();
         let key = (record.key, region, values.len());
         let at = match self.fields.get(&key) {
-            // Whatever is written of a pair twice is there twice.
+            // Duplicate records of a pair are kept.
             Some(at) if !matches!(row, Row::Whole) => *at,
             _ => {
                 let columns = quantity.columns(values.len(), &self.freedoms);

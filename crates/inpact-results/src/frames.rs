@@ -45,14 +45,14 @@ pub fn read_frames(source: &mut dyn io::Read, take: &mut TakeFrame<'_>) -> Resul
     };
     let mut lines = LineStream::new(&mut source);
     let (results, outcome) = read(&mut lines, take);
-    // A source that failed looks like a file that is cut short.
+    // A failed source looks like a truncated file.
     if let Some(failure) = lines.take_failure() {
         return Err(failure.into());
     }
     outcome.map(|()| results).map_err(|problem| Error::unsound(problem, None))
 }
 
-/// Reads a source to its end, then hands over the states.
+/// Reads a source to its end, then passes on the states.
 fn of_whole(source: &mut dyn io::Read, read: fn(&[u8]) -> Read, take: &mut TakeFrame<'_>) -> Result<Results, Error> {
     let mut bytes = Vec::new();
     source.read_to_end(&mut bytes)?;

@@ -149,7 +149,7 @@ fn width_of_coordinates(head: &Line<'_>) -> Result<Width, Problem> {
 /// Time and width of numbers of a block of values, from its line `100C`.
 struct HeadOfValues {
     time: f64,
-    /// An eigenvalue is no time.
+    /// An eigenvalue is not a time.
     is_eigenvalue: bool,
     width: Width,
 }
@@ -253,12 +253,12 @@ fn line_of_block<'a>(lines: &'a mut LineStream<'_>) -> Result<Option<Line<'a>>, 
     Ok((!line.text.starts_with(b" -3")).then_some(line))
 }
 
-/// The next line, which has an end: more may have stood on a line that has none.
+/// The next complete line: a line without an end may be truncated.
 fn whole_line<'a>(lines: &'a mut LineStream<'_>) -> Result<Line<'a>, Problem> {
     let place = lines.place();
     match lines.next() {
         Some(line) if line.end == LineEnd::Line => Ok(line),
-        // Where the file ends, or where the line begins that has no end.
+        // The end of the file, or the start of an incomplete line.
         _ => Err(cut(place)),
     }
 }

@@ -78,13 +78,13 @@ impl<'a> Iterator for Lines<'a> {
     }
 }
 
-/// The bytes that are asked of a source at a time: at first, and at most, since small files earn no large buffer.
+/// The initial and maximum read size: small files need no large buffer.
 const PIECE: RangeInclusive<usize> = 1 << 12..=1 << 18;
 
-/// The mark that some editors put before UTF-8.
+/// The UTF-8 byte order mark.
 const MARK: &[u8] = b"\xEF\xBB\xBF";
 
-/// The lines of a source that is read piece by piece: a piece of it is in memory, or a line where that is longer.
+/// The lines of a source that is read in pieces: one piece, or one longer line, is in memory.
 pub(crate) struct LineStream<'a> {
     source: &'a mut dyn io::Read,
     buffer: Vec<u8>,
@@ -95,7 +95,7 @@ pub(crate) struct LineStream<'a> {
     next: Place,
     /// Whether the source has no more.
     has_ended: bool,
-    /// The failure of the source, which ended it.
+    /// The error of the source.
     failure: Option<io::Error>,
 }
 
@@ -163,7 +163,7 @@ impl<'a> LineStream<'a> {
         self.failure.take()
     }
 
-    /// Reads more bytes behind those that are unread, which move to the front; whether there were any.
+    /// Reads more bytes after the unread ones, which move to the front; whether there were any.
     fn fill(&mut self) -> bool {
         if self.has_ended {
             return false;

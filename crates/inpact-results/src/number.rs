@@ -1,6 +1,6 @@
 //! Parsing of numbers as solvers print them.
 
-/// The most characters of a number: Fortran's widest formats stay far below.
+/// The maximum number of characters of a number, far above Fortran's widest formats.
 const MOST: usize = 64;
 
 /// A real number: with an exponent after E or D or, as Fortran prints exponents of three digits, after its sign alone

@@ -34,7 +34,7 @@ impl fmt::Display for Problem {
     }
 }
 
-/// A text of the file for a message: short, and with nothing in it that a terminal would act on.
+/// A text of the file for a message: shortened, with control characters escaped.
 pub(crate) fn shown(text: &[u8]) -> String {
     const MOST: usize = 40;
     let cut = text.len() > MOST;

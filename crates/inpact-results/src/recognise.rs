@@ -7,10 +7,10 @@ use crate::problem::{Place, Problem};
 /// The number of bytes examined.
 pub(crate) const HEAD: usize = 1 << 16;
 
-/// The kinds that are read, for a message.
+/// The supported formats, for a message.
 const READ: &str = "expected .fil in ASCII or .rpt of Abaqus, .frd in ASCII or .dat of CalculiX, or .vtu of ParaView";
 
-/// The kind of a file, found by its first bytes. A file of another kind is refused with the kind it seems to be, and how to get one that is read.
+/// Detects the format of a file from its first bytes. An unsupported file is rejected with its likely format, and how to get a supported one.
 pub(crate) fn recognise(bytes: &[u8]) -> Result<Format, Problem> {
     let head = &bytes[..bytes.len().min(HEAD)];
     if let Some((message, help)) = foreign(head) {
@@ -47,7 +47,7 @@ fn contains(text: &[u8], part: &[u8]) -> bool {
     memchr::memmem::find(text, part).is_some()
 }
 
-/// A kind that is not read, recognised by its first bytes.
+/// An unsupported format, recognised by its first bytes.
 fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
     const FIL: &str = "put `*FILE FORMAT, ASCII` into the deck, or convert the file with `abaqus ascfil job=NAME`";
     if head.trim_ascii().is_empty() {
@@ -80,7 +80,7 @@ fn foreign(head: &[u8]) -> Option<(&'static str, &'static str)> {
     None
 }
 
-/// The likely kind of a text that is not read.
+/// The likely format of an unsupported text.
 fn other_text(begin: &[u8]) -> (&'static str, &'static str) {
     if begin.starts_with(b"*") {
         return (

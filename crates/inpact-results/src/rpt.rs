@@ -41,15 +41,15 @@ pub fn read_rpt(bytes: &[u8]) -> Read {
     ended(reader.results, outcome)
 }
 
-/// The most lines of names above a table; what is higher is no head, and would cost its height times its width.
+/// The maximum number of header lines above a table; more would cost their height times their width.
 const MOST_HEAD_LINES: usize = 16;
 
 struct Reader {
     results: Results,
-    /// Step, increment and time that the lines before say.
+    /// Step, increment and time from the preceding lines.
     frame: Frame,
     set: Option<Name>,
-    /// Whether no table of `frame` was met yet.
+    /// Whether there was no table of `frame` yet.
     fresh: bool,
     passed_over: PassedOver,
 }
@@ -85,7 +85,7 @@ impl Reader {
         Ok(())
     }
 
-    /// Takes the context of the next tables from a line.
+    /// Updates the context of the next tables from a line.
     fn context(&mut self, line: &Line<'_>) {
         let text = String::from_utf8_lossy(line.text);
         let text = text.trim();
@@ -109,13 +109,13 @@ impl Reader {
     fn field(&mut self, lines: &mut Lines<'_>, head: &[Line<'_>]) -> Result<(), Problem> {
         let begins_with = |line: &Line<'_>, word: &[u8]| line.cells().next().is_some_and(|(_, cell)| cell == word);
         let Some(from) = head.iter().position(|line| begins_with(line, b"Node")) else {
-            // Under the number of a source is a rule as well.
+            // There is also a rule below the number of a source.
             if let Some(line) = head.first().filter(|line| !begins_with(line, b"Source")) {
                 self.passed_over.count(&format!("table `{}`", shown(line.text.trim_ascii())));
             }
             return Ok(());
         };
-        // Under the names of columns is their source; names that are long go on in the next line.
+        // Below the column names is their source; long names continue on the next line.
         let head = &head[from..];
         let to = head.iter().position(|line| begins_with(line, b"Label")).unwrap_or(head.len());
         let mut table = Table::default();
@@ -149,7 +149,7 @@ impl Reader {
         outcome
     }
 
-    /// A table of XY data: a frame a row.
+    /// A table of XY data: one frame per row.
     fn history(&mut self, lines: &mut Lines<'_>, head: &[Line<'_>]) -> Result<(), Problem> {
         let mut table = Table::default();
         let outcome = table.rows(lines);

@@ -9,10 +9,10 @@ use std::ops::ControlFlow;
 /// Takes states one by one, each with the preceding data that belong to no state; may stop.
 pub type TakeFrame<'a> = dyn FnMut(&Results, Frame) -> ControlFlow<()> + 'a;
 
-/// How a format is read state by state.
+/// A reader of a format, state by state.
 pub(crate) type ReadFrames = fn(&mut LineStream<'_>, &mut TakeFrame<'_>) -> (Results, Result<(), Problem>);
 
-/// Reads bytes that are at hand, all states of them.
+/// Reads all states of bytes in memory.
 pub(crate) fn read_whole(mut bytes: &[u8], read: ReadFrames) -> Read {
     let mut frames = Vec::new();
     let mut take = |_: &Results, frame| {
@@ -24,10 +24,10 @@ pub(crate) fn read_whole(mut bytes: &[u8], read: ReadFrames) -> Read {
     ended(results, outcome)
 }
 
-/// Hands states over until nobody wants more.
+/// Passes on states until the receiver stops.
 pub(crate) struct Taker<'a, 'b> {
     take: &'a mut TakeFrame<'b>,
-    /// Whether nobody wants more.
+    /// Whether the receiver has stopped.
     pub(crate) is_over: bool,
 }
 
@@ -36,7 +36,7 @@ impl<'a, 'b> Taker<'a, 'b> {
         Self { take, is_over: false }
     }
 
-    /// Hands a state over, if there is one.
+    /// Passes on a state, if there is one.
     pub(crate) fn take(&mut self, results: &Results, frame: Option<Frame>) {
         if let Some(frame) = frame.filter(|_| !self.is_over) {
             self.is_over = (self.take)(results, frame).is_break();

@@ -89,7 +89,7 @@ impl Assembly {
     }
 }
 
-/// Whether the deck has a mesh, and the whole of it.
+/// Whether the deck has a complete mesh.
 pub(crate) fn defines_its_mesh(context: &Context<'_>) -> bool {
     has_mesh(context) && is_whole(context)
 }

@@ -101,7 +101,7 @@ pub fn time_rules(
     })
 }
 
-/// Makes what the rules see of a deck.
+/// Builds the input of the rules from a deck.
 fn with_context<T>(
     (deck, grammar, model, problems): (&Deck, &Grammar, &Model, &[Problem]),
     work: impl FnOnce(&Context<'_>) -> T,
@@ -114,7 +114,7 @@ fn with_context<T>(
     work(&context)
 }
 
-/// Leaves out what comments in the deck silence, and reports comments that silence nothing.
+/// Drops findings suppressed by comments in the deck, and reports comments without effect.
 fn silence(deck: &Deck, diagnostics: &mut Vec<Diagnostic>) {
     let mut directives = directives::read(deck);
     if directives.is_empty() {
@@ -139,7 +139,7 @@ fn sort(diagnostics: &mut [Diagnostic]) {
         .sort_by_key(|found| (found.primary.span.source(), found.primary.span.start(), found.severity, found.code));
 }
 
-/// Finds file, line and column of every label, in one sweep over the deck.
+/// Finds file, line and column of every label, in one pass over the deck.
 fn locate(deck: &Deck, diagnostics: &mut [Diagnostic]) {
     name_files(deck, diagnostics);
     let spans: Vec<_> = diagnostics.iter().flat_map(Diagnostic::labels).map(|label| label.span).collect();

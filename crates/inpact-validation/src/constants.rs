@@ -5,7 +5,7 @@ use crate::rule::{Context, DefinedBlock};
 use inpact_parser::number::{FortranNumber, read_fortran};
 use inpact_parser::span::Span;
 
-/// The law of a *SURFACE BEHAVIOR; the last of several counts.
+/// The law of a *SURFACE BEHAVIOR; the last of several applies.
 pub(crate) fn behavior<'a>(context: &Context<'_>, block: DefinedBlock<'a>) -> Option<&'a str> {
     let given = given_as(block, "PRESSURE-OVERCLOSURE")?;
     given.definition.choice_named(&given.text(context)?)

@@ -6,7 +6,7 @@ use crate::rule::Context;
 use inpact_parser::model::{HeatGeneration, Model, OptionKind, SetAsideItem};
 use inpact_parser::span::Span;
 
-/// Every *GAP HEAT GENERATION that the reader took for a sub-option of an interaction, misplaced ones too.
+/// Every *GAP HEAT GENERATION that the reader accepted as a sub-option of an interaction, including misplaced ones.
 fn all(model: &Model) -> impl Iterator<Item = &HeatGeneration> {
     let placed = model.all_interactions().filter_map(|interaction| interaction.gap_heat_generation.as_deref());
     let aside = model.set_aside.iter().filter_map(|aside| match &aside.item {
@@ -18,7 +18,7 @@ fn all(model: &Model) -> impl Iterator<Item = &HeatGeneration> {
 
 /// An item of every row that is read, with its place; where there is no row, its default at the keyword line.
 ///
-/// Abaqus reads one row; CalculiX judges every row, though the last alone counts (CX-10).
+/// Abaqus reads one row; CalculiX checks every row, though only the last applies (CX-10).
 pub(crate) fn items(context: &Context<'_>, index: usize) -> Vec<(Span, f64)> {
     if context.is_for_calculix() {
         let options = context.defined_blocks().filter(|block| block.kind() == OptionKind::GapHeatGeneration);

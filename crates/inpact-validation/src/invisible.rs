@@ -3,14 +3,14 @@
 use inpact_parser::span::Span;
 use std::ops::Range;
 
-/// A character that is not what it looks like.
+/// An invisible or confusable character.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Hidden {
     /// Its bytes in the text.
     pub(crate) range: Range<usize>,
     /// Its name and number.
     pub(crate) name: String,
-    /// The plain text meant by it.
+    /// Its plain replacement.
     pub(crate) plain: &'static str,
 }
 
@@ -50,7 +50,7 @@ pub(crate) fn all(text: &[u8]) -> impl Iterator<Item = Hidden> {
     })
 }
 
-/// The text with what is meant in the place of every such character.
+/// The text with all such characters replaced.
 pub(crate) fn plain(text: &[u8]) -> Vec<u8> {
     let mut result = Vec::with_capacity(text.len());
     let mut copied = 0;

@@ -8,7 +8,7 @@ use inpact_parser::deck::{DataLine, Deck, LineNoteKind, RowsKept, items};
 use inpact_parser::grammar::{Grammar, Lookup, RowShape};
 use inpact_parser::span::Span;
 
-/// A row that reads exactly as a keyword line.
+/// A row that matches a keyword line exactly.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct LostLine<'a> {
     /// The row.
@@ -19,7 +19,7 @@ pub(crate) struct LostLine<'a> {
     pub(crate) meant: &'a str,
 }
 
-/// The rows that read as keyword lines; of a block whose rows are not kept those that the scan has noted.
+/// The rows that match keyword lines; for a block whose rows are not kept those noted by the scan.
 pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<'a>> {
     let notes = deck.notes().iter().filter(|note| note.kind == LineNoteKind::LikeKeyword);
     let mut noted: Vec<Span> = notes.map(|note| note.span).collect();
@@ -27,7 +27,7 @@ pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<
     let mut lost = Vec::new();
     for block in deck.blocks() {
         let definition = block.keyword_id().and_then(|id| grammar.keyword(id).definition());
-        // The rows of a table in order are numbers.
+        // The rows of a well-ordered table are numbers.
         if block.rows_kept == RowsKept::Ends || definition.is_some_and(|definition| definition.rows() == RowShape::Text)
         {
             continue;
@@ -47,7 +47,7 @@ pub(crate) fn lost_lines<'a>(deck: &Deck, grammar: &'a Grammar) -> Vec<LostLine<
     lost
 }
 
-/// The problems that are not such a row's, nor those of rows after one.
+/// The problems except those of such rows and of rows after one.
 pub(crate) fn without_consequences(problems: &[Problem], lost: &[LostLine<'_>]) -> Vec<Problem> {
     let follows = |problem: &Problem| {
         let of_block = lost.iter().filter(|line| line.keyword == problem.keyword);

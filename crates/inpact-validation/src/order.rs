@@ -10,7 +10,7 @@ use inpact_parser::model::Table;
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// The falls in a table that should ascend.
+/// The descents in a table that should ascend.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Falls {
     /// The row before the first fall.
@@ -26,16 +26,16 @@ pub(crate) struct Falls {
 /// Rows that agree in all independent variables but the first.
 #[derive(Debug, Clone)]
 pub(crate) struct Group {
-    /// The rows; some of those inside may take no part.
+    /// The rows, some of which may be skipped.
     pub(crate) rows: Range<usize>,
-    /// Every row takes part and none falls: the group can be judged as a curve.
+    /// No row is skipped and none descends: the group can be checked as a curve.
     pub(crate) is_curve: bool,
-    /// The group is known to start with its first row: no row that takes no part precedes it, and none
+    /// The group is known to start with its first row: no skipped row precedes it, and none
     /// after it is lower.
     pub(crate) start_is_known: bool,
 }
 
-/// Finds the falls of a table in the columns that are meant: the first of them and how many there are.
+/// Finds the descents of a table in the given columns: the first of them and their number.
 ///
 /// A table that is out of order in many places has one finding.
 pub(crate) fn falls(table: &Table, is_meant: impl Fn(usize) -> bool) -> Option<Falls> {
@@ -48,7 +48,7 @@ pub(crate) fn falls(table: &Table, is_meant: impl Fn(usize) -> bool) -> Option<F
     falls
 }
 
-/// The steps between rows that take part: the one row, the next, their order, and the column in which they differ.
+/// The steps between rows that are not skipped: both rows, their order, and the column in which they differ.
 pub(crate) fn steps(table: &Table) -> impl Iterator<Item = (usize, usize, Ordering, usize)> {
     let mut before = None;
     table.row_values().enumerate().filter(|(_, row)| takes_part(row)).filter_map(move |(index, row)| {
@@ -80,11 +80,11 @@ pub(crate) fn has_clear_groups(table: &Table) -> bool {
     !table.values.iter().any(|value| value.is_nan()) && falls(table, |column| column > 1).is_none()
 }
 
-/// The groups of a table; none where an outer variable falls, since then nobody knows which rows belong together (T003).
+/// The groups of a table; none where an outer variable descends, since then the grouping is unknown (T003).
 pub(crate) fn groups(table: &Table) -> impl Iterator<Item = Group> {
     let count = if falls(table, |column| column > 1).is_some() { 0 } else { table.row_count() };
     let mut next = 0;
-    // A row that takes no part, between the group before and the next one: it may belong to either.
+    // A skipped row between two groups may belong to either.
     let mut gap = false;
     std::iter::from_fn(move || {
         while next < count && !takes_part(table.row(next)) {
@@ -119,7 +119,7 @@ pub(crate) fn groups(table: &Table) -> impl Iterator<Item = Group> {
     })
 }
 
-/// The groups that can be judged as curves.
+/// The groups that can be checked as curves.
 pub(crate) fn curves(table: &Table) -> impl Iterator<Item = Range<usize>> {
     groups(table).filter(|group| group.is_curve).map(|group| group.rows)
 }
@@ -205,7 +205,7 @@ mod tests {
     fn rows_without_a_number_take_no_part() {
         let unknown = [2.0, f64::NAN, 300.0];
         assert_eq!(shown(&[[3.0, 0.0, 300.0], unknown, [1.0, 2.0, 300.0], [4.0, 0.0, 400.0]]), "0..3~ 3..4");
-        // Between two groups it may belong to either.
+        // Between two groups a row may belong to either.
         assert_eq!(shown(&[[3.0, 0.0, 300.0], unknown, [4.0, 0.0, 400.0]]), "0..1~ ?2..3~");
         assert_eq!(shown(&[unknown, [3.0, 0.0, 300.0]]), "?1..2~");
         assert_eq!(shown(&[unknown]), "");

@@ -12,7 +12,7 @@ use inpact_parser::number::{NumberError, float_text, read_float, read_integer};
 use inpact_parser::span::Span;
 use std::borrow::Cow;
 
-/// A parameter that the keyword has, as it is given.
+/// A parameter of a keyword line that the keyword has.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GivenParameter<'a> {
     /// The block of its keyword line.
@@ -91,12 +91,12 @@ impl GivenParameter<'_> {
         self.parameter.value.filter(|value| !value.is_empty())
     }
 
-    /// The value with what *PARAMETER defines put in; `None` where there is none, or a definition is missing.
+    /// The value with parameters substituted; `None` where there is none, or a definition is missing.
     pub(crate) fn text<'a>(&self, context: &Context<'a>) -> Option<Cow<'a, [u8]>> {
         substituted(context, self.value()?)
     }
 
-    /// The value read as the number it should be; `None` where no number is due.
+    /// The value as a number; `None` where no number is expected.
     pub(crate) fn number(&self, context: &Context<'_>) -> Option<Result<f64, NumberError>> {
         match self.definition.kind {
             ParameterKind::Float => Some(read_float(&self.text(context)?)),
@@ -105,7 +105,7 @@ impl GivenParameter<'_> {
         }
     }
 
-    /// Says how a number lies outside its bounds, where it does.
+    /// Describes how a number lies outside its bounds, if it does.
     pub(crate) fn out_of_bounds(&self, number: f64) -> Option<String> {
         let counts_fields = self.definition.name == "DEPENDENCIES";
         let most = if counts_fields { Some(MOST_FIELD_VARIABLES as f64) } else { self.definition.maximum };
@@ -136,7 +136,7 @@ pub(crate) fn substituted<'a>(context: &Context<'a>, span: Span) -> Option<Cow<'
     Some(Cow::Owned(replaced.into_bytes()))
 }
 
-/// Reads an integer; distinguishes one that is too large from what is none.
+/// Reads an integer; distinguishes one that is too large from an invalid one.
 fn integer(text: &[u8]) -> Result<f64, NumberError> {
     let digits = text.strip_prefix(b"-").or(text.strip_prefix(b"+")).unwrap_or(text);
     match read_integer(text) {

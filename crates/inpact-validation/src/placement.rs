@@ -15,12 +15,12 @@ pub(crate) struct Run<'a> {
     pub(crate) first: &'a Problem,
     /// The number of misplaced sub-options after it.
     pub(crate) further: usize,
-    /// The last keyword line above that is no sub-option.
+    /// The last keyword line above that is not a sub-option.
     pub(crate) above: Option<&'a KeywordLine>,
 }
 
 impl Run<'_> {
-    /// The beginning of a message about it, of which the first has that keyword: `` `*FRICTION` is``.
+    /// The beginning of a message about it, for the keyword of its first one: `` `*FRICTION` is``.
     pub(crate) fn subject(&self, keyword: &str) -> String {
         match self.further {
             0 => format!("`*{keyword}` is"),
@@ -60,7 +60,7 @@ pub(crate) fn runs<'a>(context: &Context<'a>, is_meant: impl Fn(&ProblemKind) ->
     runs
 }
 
-/// A keyword line without its line end: what a label underlines.
+/// A keyword line without its line end, for labels.
 pub(crate) fn visible(context: &Context<'_>, line: Span) -> Span {
     let length = context.deck.text(line).trim_ascii_end().len() as u64;
     Span::new(line.source(), line.start(), line.start() + length)

@@ -41,7 +41,7 @@ pub(crate) fn first_of_each_block<'a>(
     found
 }
 
-/// Those whose keyword line leaves no doubt about the columns: where it does, the line has a finding of its own.
+/// Those whose keyword line determines the columns: otherwise the line has a finding of its own.
 pub(crate) fn of_clear_columns<'a>(
     context: &'a Context<'_>,
     found: Vec<FirstOfBlock<'a>>,
@@ -73,7 +73,7 @@ impl<'a, 'c> BlocksByKeyword<'a, 'c> {
     }
 }
 
-/// Whether the problem is a row that has no place.
+/// Whether the problem is a misplaced row.
 pub(crate) fn has_no_place(kind: &ProblemKind) -> bool {
     matches!(kind, ProblemKind::SurplusRow | ProblemKind::TooManyItems { allowed: 0, .. })
 }

@@ -3,7 +3,7 @@
 use inpact_parser::model::{Table, TableKind};
 use std::borrow::Cow;
 
-/// A number for a message: the shortest digits that read back, with an exponent where they would be mostly zeros.
+/// A number for a message: the shortest digits that round-trip, with an exponent where they would be mostly zeros.
 pub(crate) fn number(value: f64) -> String {
     let magnitude = value.abs();
     if magnitude == 0.0 || (1e-4..1e6).contains(&magnitude) { value.to_string() } else { format!("{value:e}") }

@@ -9,28 +9,28 @@ use inpact_parser::model::{Name, Reference};
 use inpact_parser::span::Span;
 use std::collections::HashMap;
 
-/// The most names of a deck among which one is looked for that may be meant.
+/// The maximum number of names of a deck that are compared for suggestions.
 const MOST_COMPARED: usize = 10_000;
 
-/// The most findings of a rule that come with a suggestion: finding one is a comparison with every name.
+/// The maximum number of findings of a rule with a suggestion, which takes a comparison with every name.
 const MOST_SUGGESTIONS: usize = 20;
 
 /// The definitions of names of one kind.
 #[derive(Debug, Default)]
 pub(crate) struct Definitions {
     by_name: HashMap<Name, Span>,
-    /// The quoted names, by what is left of them without quotes, case and blanks (S-41).
+    /// The quoted names, by their form without quotes, case and blanks (S-41).
     quoted: HashMap<String, (Name, Span)>,
-    /// Some of the names, among which one is looked for that may be meant.
+    /// Some of the names, for suggestions.
     compared: Vec<String>,
 }
 
 /// Result of looking up a reference.
 #[derive(Debug)]
 pub(crate) enum Found<'a> {
-    /// Something that is defined.
+    /// It is defined.
     Defined,
-    /// Something whose name is quoted where it is defined and not where it is used, or the other way round.
+    /// Its name is quoted in the definition and not in the reference, or vice versa.
     QuotedOtherwise(&'a Name, Span),
     /// Nothing.
     Missing,
@@ -113,7 +113,7 @@ impl Definitions {
     }
 }
 
-/// Asks whether a name that is spelt nearly alike is meant, for the first findings of a rule.
+/// Suggests a name with similar spelling, for the first findings of a rule.
 pub(crate) fn suggestion(definitions: &Definitions, name: &Name, finding: usize) -> Option<String> {
     if finding >= MOST_SUGGESTIONS {
         return None;
@@ -129,7 +129,7 @@ fn folded(name: &Name) -> String {
     kept.map(|character| character.to_ascii_uppercase()).collect()
 }
 
-/// A place where a name is used.
+/// A reference to a name.
 #[derive(Debug, Clone)]
 pub(crate) struct Use {
     /// The name.
@@ -175,7 +175,7 @@ pub(crate) fn uses_of_surfaces(context: &Context<'_>) -> impl Iterator<Item = Us
     pairs.chain(assignments.map(|reference| Use::of(reference, "CONTACT PROPERTY ASSIGNMENT")))
 }
 
-/// The parts of a dotted name, as many as it has periods outside quotes and one more (S-44).
+/// The parts of a dotted name, split at periods outside quotes (S-44).
 pub(crate) fn components(name: &Name) -> Vec<Name> {
     let mut quoted = false;
     let is_dot = |character: char| {

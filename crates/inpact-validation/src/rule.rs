@@ -11,10 +11,10 @@ use inpact_parser::span::Span;
 use std::cell::OnceCell;
 use std::collections::HashSet;
 
-/// The most findings of one rule in one deck; more are counted, not shown.
+/// The maximum number of findings of one rule in one deck; more are only counted.
 const MOST_OF_ONE_RULE: usize = 1000;
 
-/// Looks for the findings of a rule.
+/// The check function of a rule.
 pub(crate) type Check = fn(&Context<'_>, &mut Report<'_>);
 
 /// Declares the rule of a file: its doc comment becomes the rule's page.
@@ -38,7 +38,7 @@ pub(crate) use declare_rule;
 /// The input of rules.
 #[derive(Debug)]
 pub(crate) struct Context<'a> {
-    /// The deck as it is in its files.
+    /// The deck.
     pub(crate) deck: &'a Deck,
     /// The keyword language.
     pub(crate) grammar: &'a Grammar,
@@ -48,9 +48,9 @@ pub(crate) struct Context<'a> {
     pub(crate) problems: &'a [Problem],
     /// The view factors of every *GAP RADIATION.
     pub(crate) radiation: Vec<Table>,
-    /// The rows that read exactly as keyword lines (S021).
+    /// The rows that match keyword lines exactly (S021).
     pub(crate) lost_lines: Vec<LostLine<'a>>,
-    /// The keyword lines of tables whose rows hold something else than their columns say.
+    /// The keyword lines of tables whose rows do not match their columns.
     pub(crate) misread: OnceCell<HashSet<Span>>,
 }
 
@@ -75,7 +75,7 @@ impl DefinedBlock<'_> {
 }
 
 impl<'a> Context<'a> {
-    /// Every table of the model, those that govern nothing too, and the view factors of *GAP RADIATION.
+    /// Every table of the model, including those without effect, and the view factors of *GAP RADIATION.
     pub(crate) fn tables(&self) -> impl Iterator<Item = TableOf<'_>> {
         let keyword = OptionKind::GapRadiation.keyword();
         let of = move |table| TableOf { kind: TableKind::ViewFactor, keyword, interaction: None, table };
@@ -93,7 +93,7 @@ impl<'a> Context<'a> {
         self.deck.blocks().iter().filter_map(move |block| defined(grammar, block))
     }
 
-    /// A block with what the grammar says of it, where it defines the keyword.
+    /// A block with its definition, where the grammar has one.
     pub(crate) fn defined(&self, block: &'a Block) -> Option<DefinedBlock<'a>> {
         defined(self.grammar, block)
     }
@@ -108,7 +108,7 @@ impl<'a> Context<'a> {
         shorten(&self.deck.shown(span))
     }
 
-    /// The text of a value or an item with every `<parameter>` in it replaced (S-62); one without a value stays as it is.
+    /// The text of a value or an item with every `<parameter>` in it replaced (S-62); one without a value is unchanged.
     pub(crate) fn value(&self, span: Span) -> String {
         let text = self.deck.shown(span);
         match substitute(&text, &self.model.parameters) {
@@ -129,7 +129,7 @@ impl<'a> Context<'a> {
         let (first_line, following) = self.items_on_lines(of);
         let (Some(first), second) = (lines.next(), lines.next()) else { return row_span };
         let found = match (column.checked_sub(first_line), second) {
-            // A row on one line although it should go over several (K-53) has all its items there.
+            // A row on one line that should span several (K-53) has all its items there.
             (None, _) | (_, None) => first.items().nth(column),
             (Some(offset), Some(second)) => {
                 let mut further = std::iter::once(second).chain(lines);
@@ -157,7 +157,7 @@ impl<'a> Context<'a> {
         included > read.count()
     }
 
-    /// The span without blanks and line ends around it: what a label underlines.
+    /// The span without blanks and line ends around it, for labels.
     pub(crate) fn trimmed(&self, span: Span) -> Span {
         trimmed(self.deck, span)
     }
@@ -180,7 +180,7 @@ fn defined<'a>(grammar: &'a Grammar, block: &'a Block) -> Option<DefinedBlock<'a
     Some(DefinedBlock { block, keyword, name: &entry.name, definition: entry.definition()? })
 }
 
-/// Shortens what would not fit into a message; a line end becomes a blank, any other control character a `?`.
+/// Shortens a text for a message; a line end becomes a blank, any other control character a `?`.
 fn shorten(text: &str) -> String {
     const MOST: usize = 80;
     let printable = |character: char| match character {
@@ -192,14 +192,14 @@ fn shorten(text: &str) -> String {
     text.chars().take(MOST).map(printable).chain(rest).collect()
 }
 
-/// Takes the findings of one rule.
+/// Collects the findings of one rule.
 #[derive(Debug)]
 pub(crate) struct Report<'a> {
     rule: &'static Rule,
     diagnostics: &'a mut Vec<Diagnostic>,
     reported: usize,
     most: usize,
-    /// Takes what goes beyond `most`.
+    /// Counts findings beyond `most`.
     overflow: Option<Box<Diagnostic>>,
 }
 
@@ -208,12 +208,12 @@ impl<'a> Report<'a> {
         Self { rule, diagnostics, reported: 0, most: MOST_OF_ONE_RULE, overflow: None }
     }
 
-    /// Keeps every finding, for those who mend them instead of showing them.
+    /// Keeps every finding, for fixing instead of showing.
     pub(crate) fn without_limit(rule: &'static Rule, diagnostics: &'a mut Vec<Diagnostic>) -> Self {
         Self { most: usize::MAX, ..Self::new(rule, diagnostics) }
     }
 
-    /// Reports a finding at `span`; what comes back takes labels, help and fix.
+    /// Reports a finding at `span`; labels, help and fix are added to the returned value.
     pub(crate) fn at(&mut self, span: Span, message: impl Into<String>) -> &mut Diagnostic {
         let diagnostic = Diagnostic::new(self.rule, message, Label::new(span, ""));
         self.reported += 1;
@@ -230,7 +230,7 @@ impl<'a> Report<'a> {
         self.reported >= self.most
     }
 
-    /// Says on the last finding shown how many were not.
+    /// Notes on the last finding shown the number of further ones.
     pub(crate) fn finish(self) {
         let Some(hidden) = self.reported.checked_sub(self.most).filter(|hidden| *hidden > 0) else { return };
         if let Some(last) = self.diagnostics.last_mut() {

@@ -1,6 +1,6 @@
 //! Phrases shared by several messages.
 
-/// The most names that a message lists.
+/// The maximum number of names in a message.
 const MOST: usize = 10;
 
 /// The names in backticks, with `or` before the last: `A`, `B` or `C`.

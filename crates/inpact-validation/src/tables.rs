@@ -14,18 +14,18 @@ use inpact_parser::number::{read_float, read_integer};
 use inpact_parser::span::Span;
 use std::collections::HashSet;
 
-/// The tables whose rows were read as they were meant.
+/// The tables whose rows match their columns.
 pub(crate) fn sound_tables<'a>(context: &'a Context<'_>) -> impl Iterator<Item = TableOf<'a>> {
-    // Asked by every rule on tables, and mostly nothing is in it.
+    // Used by every rule on tables, and mostly empty.
     let misread = context.misread.get_or_init(|| misread(context));
     context
         .tables()
         .filter(move |of| of.table.width() > 1 && (misread.is_empty() || !misread.contains(&of.table.keyword)))
 }
 
-/// The keyword lines whose rows hold something else than their columns say.
+/// The keyword lines whose rows do not match their columns.
 fn misread(context: &Context<'_>) -> HashSet<Span> {
-    // CalculiX passes over items after those it reads.
+    // CalculiX ignores items after those it reads.
     let is_misread = |kind: &ProblemKind| match kind {
         ProblemKind::TooManyItems { .. } => !context.is_for_calculix(),
         ProblemKind::IncompleteRow { .. } => true,
@@ -68,7 +68,7 @@ pub(crate) fn starts_as_it_must(of: TableOf<'_>, abscissa: f64) -> bool {
 /// Whether a cell is not empty; an empty one reads as 0.
 pub(crate) fn is_written(context: &Context<'_>, of: TableOf<'_>, row: usize, column: usize) -> bool {
     let cell = context.cell(of, row, column);
-    // The row itself marks a cell that is not there; but a row of one item is its first cell.
+    // The span of the row marks a missing cell; but a row of one item is its first cell.
     !cell.is_empty() && (column == 0 || cell != of.table.row_span(row))
 }
 

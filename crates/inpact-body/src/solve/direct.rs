@@ -8,7 +8,7 @@ const HELD: u32 = u32::MAX;
 
 const MEMORY: ErrorKind = ErrorKind::NotFactored(NoSolution::Memory);
 
-/// Solves, and gives the number of entries of the factor.
+/// Solves, and returns the number of entries of the factor.
 pub(super) fn solve(equations: &Equations<'_>, fields: &mut [Vec<f64>]) -> Result<usize, Error> {
     let Equations { matrix, is_held, sources } = equations;
     let mut number = vec![HELD; is_held.len()];
@@ -52,7 +52,7 @@ pub(super) fn solve(equations: &Equations<'_>, fields: &mut [Vec<f64>]) -> Resul
     }
     let mut factor = Cholesky::new(&starts, &rows, values)?;
     for (field, sources) in fields.iter_mut().zip(sources) {
-        // A second solve takes off what rounding left of the first.
+        // A second solve corrects the rounding of the first (iterative refinement).
         for _ in 0..2 {
             let residual = equations.residual(field, sources);
             let mut right: Vec<f64> = free.iter().map(|node| residual[*node]).collect();

@@ -8,13 +8,13 @@
 
 use super::Equations;
 
-/// The share of the residual, in the norm of the preconditioner, at which an iteration ends. Conductances are products of two errors, far below this.
+/// The relative residual, in the norm of the preconditioner, at which an iteration ends. The error of conductances is a product of two errors, far below this.
 const REDUCTION: f64 = 1e-12;
 
-/// More iterations are not tried: the factor is cheaper then.
+/// The maximum number of iterations, beyond which the factor is cheaper.
 const MOST_ITERATIONS: usize = 5_000;
 
-/// Solves as well as it can, and gives the number of iterations.
+/// Solves as far as possible, and returns the number of iterations.
 pub(super) fn solve(equations: &Equations<'_>, fields: &mut [Vec<f64>]) -> usize {
     let scaled = Scaled::of(equations);
     let mut most = 0;
@@ -90,7 +90,7 @@ impl<'a> Scaled<'a> {
         }
     }
 
-    /// Adds to the first W fields what their residuals need.
+    /// Adds the corrections for their residuals to the first W fields.
     fn solve<const W: usize>(&self, equations: &Equations<'_>, first: usize, fields: &mut [Vec<f64>]) -> usize {
         let nodes = self.scale.len();
         let mut residual: Columns<W> = vec![[0.0; W]; nodes];
@@ -122,7 +122,7 @@ impl<'a> Scaled<'a> {
             let curvatures = products(&direction, &image);
             let mut steps = [0.0; W];
             for k in 0..W {
-                // One that is done stays where it is.
+                // A converged one is unchanged.
                 if goals[k] < squares[k] && 0.0 < curvatures[k] {
                     steps[k] = squares[k] / curvatures[k];
                 }

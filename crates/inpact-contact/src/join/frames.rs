@@ -15,11 +15,11 @@ use std::sync::Arc;
 /// The largest difference of two values of one node in two files, as a share of the larger: reports have four digits or more.
 const SAME: f64 = 1e-3;
 
-/// A state in the making.
+/// A state under construction.
 #[derive(Debug)]
 pub(super) struct Building {
     pub(super) moment: Moment,
-    /// The relative error of the time because of the digits of the file.
+    /// The relative error of the time due to the printed digits.
     digits: f64,
     files: Vec<Arc<str>>,
     nodes: usize,
@@ -27,7 +27,7 @@ pub(super) struct Building {
     totals: Vec<PairTotal>,
 }
 
-/// Values of a quantity from one file, or from several that say the same of different nodes.
+/// Values of a quantity from one file, or from several for different nodes.
 #[derive(Debug, Clone)]
 struct Said {
     quantity: Quantity,
@@ -36,7 +36,7 @@ struct Said {
     values: Vec<Option<f64>>,
 }
 
-/// The time of a frame; an error where it is no state.
+/// The time of a frame; an error where it is not a state.
 pub(super) fn moment(frame: &Frame, steps: &[Option<Name>]) -> Result<Moment, String> {
     let named = frame.step_name.as_ref().and_then(|name| step_number(name, steps));
     let step = frame.step.or(named);
@@ -84,12 +84,12 @@ impl Building {
         }
     }
 
-    /// Whether nothing was said.
+    /// Whether it is empty.
     pub(super) fn is_empty(&self) -> bool {
         self.said.is_empty() && self.totals.is_empty()
     }
 
-    /// Takes a value of a pair as a whole; the first counts.
+    /// Adds a value of a pair as a whole; the first takes precedence.
     pub(super) fn take_total(&mut self, total: PairTotal) {
         let is_same = |known: &PairTotal| (known.quantity, known.pair) == (total.quantity, total.pair);
         if !self.totals.iter().any(is_same) {
@@ -97,7 +97,7 @@ impl Building {
         }
     }
 
-    /// Takes values of a quantity; the first value of a node counts.
+    /// Adds values of a quantity; the first value of a node takes precedence.
     pub(super) fn take(
         &mut self,
         quantity: Quantity,
@@ -115,9 +115,9 @@ impl Building {
         }
     }
 
-    /// CalculiX lists what is in contact, in some releases every node, with zeros for the others: a slave node without numbers, or with zeros, is open.
+    /// CalculiX lists nodes in contact, in some releases every node, with zeros for the others: a slave node without numbers, or with zeros, is open.
     ///
-    /// Its pressure and shear are 0 then, and its clearance is not said.
+    /// Its pressure and shear are then 0, and its clearance is unknown.
     pub(super) fn open_where_nothing_is_in_contact(&mut self, slaves: &[NodeId]) {
         let is_contact = |said: &Said| matches!(said.quantity, Quantity::Contact(..));
         let closed: HashSet<NodeId> = self
@@ -139,13 +139,13 @@ impl Building {
         }
     }
 
-    /// Takes back what is said of nodes that are slaves of several pairs, and of no pair by name; says so.
+    /// Removes values without a pair at nodes that are slaves of several pairs, with a note.
     pub(super) fn without_shared(&mut self, shared: &[NodeId], mesh: &Mesh) -> Option<String> {
         let mut first = None;
         let of_contact = self.said.iter_mut().filter(|said| said.quantity.is_of_contact() && said.pair.is_none());
         for said in of_contact {
             for node in shared {
-                // No pressure at all is none of any pair.
+                // Zero pressure is zero for every pair.
                 if said.values[node.index()].take_if(|value| *value != 0.0).is_some() {
                     first.get_or_insert(*node);
                 }
@@ -170,7 +170,7 @@ impl Building {
         (distance <= digits * own.abs().max(others.abs())).then_some(distance)
     }
 
-    /// Takes what another of the same state says, which fills what is left; says where they disagree.
+    /// Merges another one of the same state, which fills in missing values; notes disagreements.
     pub(super) fn merge(&mut self, other: Self, mesh: &Mesh) -> Vec<String> {
         let mut disagreements = Vec::new();
         let (own, others) = (&mut self.moment, other.moment);
@@ -238,7 +238,7 @@ impl Building {
         self.said.iter().find(|said| is(said.quantity)).map(|said| said.source.clone())
     }
 
-    /// The state, and what keeps its displacements from being used.
+    /// The state, and the reason why its displacements are not used.
     pub(super) fn finish(self, mesh: &Mesh) -> (State, Option<String>) {
         let mut state = State { moment: self.moment, ..State::default() };
         let displacements = self.displacements(mesh);
@@ -248,7 +248,7 @@ impl Building {
         if let Some(source) = self.source_of(|quantity| matches!(quantity, Quantity::Shear(_))) {
             for (pair, vectors) in shears {
                 let values: Vec<Option<f64>> = vectors.into_iter().map(|vector| vector.map(length)).collect();
-                // Contact without friction says 0 everywhere, which is no quantity of it.
+                // Frictionless contact has 0 everywhere, which is dropped.
                 if values.iter().flatten().any(|value| *value != 0.0) {
                     let (quantity, source) = (ContactQuantity::Shear, source.clone());
                     state.contact.push(ContactField { quantity, pair, values, source });

@@ -50,7 +50,7 @@ pub(super) enum NodeMap {
 impl NodeMap {
     /// The reading of the labels of a file, with notes on it; an error where its nodes are not those of the mesh.
     ///
-    /// `surfaces` is asked where nodes at one place must be distinguished.
+    /// `surfaces` is called where coincident nodes must be distinguished.
     pub(super) fn new<E: From<Error>>(
         mesh: &Mesh,
         results: &Results,
@@ -77,7 +77,7 @@ impl NodeMap {
                     return Ok((Self::Labels(labels, MatchedBy::Labels), Vec::new()));
                 };
                 let (nodes, mut notes) = places.nodes(surfaces)?;
-                // Some nodes of another mesh may well be where one of this has some.
+                // Some nodes of another mesh may coincide with nodes of this one.
                 if 2 * nodes.len() < mesh.nodes.len() {
                     let (found, all) = (nodes.len(), mesh.nodes.len());
                     let message = format!(
@@ -142,7 +142,7 @@ impl NodeMap {
         }
     }
 
-    /// Says how many nodes of contact surfaces a file says nothing of.
+    /// Notes the number of nodes of contact surfaces without values in a file.
     pub(super) fn without(&self, mesh: &Mesh, used: &BTreeSet<NodeId>) -> Option<String> {
         let mut without = ids().take(mesh.nodes.len()).filter(|node| !used.contains(node));
         let first = &mesh.nodes[without.next()?.index()];
@@ -166,7 +166,7 @@ fn by_labels(labels: impl Iterator<Item = i64>) -> HashMap<i64, NodeId> {
     labels.zip(ids()).collect()
 }
 
-/// A name as result files write it.
+/// A name in the spelling of result files.
 fn plain(name: &str) -> String {
     name.to_ascii_uppercase().replace('.', "_").replace('"', "")
 }
@@ -179,7 +179,7 @@ pub(super) fn nodes_of(kind: &SurfaceKind) -> Vec<NodeId> {
     }
 }
 
-/// The places of the nodes of a file, beside a mesh.
+/// The positions of the nodes of a file, compared with a mesh.
 struct Places<'a> {
     mesh: &'a Mesh,
     labels: &'a [i64],
@@ -218,9 +218,9 @@ impl<'a> Places<'a> {
         (0..3).all(|k| (point[k] - other[k]).abs() <= self.tolerance(point[k]))
     }
 
-    /// The reason why the labels cannot be those of the mesh: a node that is elsewhere in the file.
+    /// The reason why the labels are not those of the mesh: a node with other coordinates in the file.
     fn contradiction(&self, nodes: &HashMap<i64, NodeId>) -> Option<String> {
-        // Nodes moved by ADJUST are where the deck does not say.
+        // Nodes moved by ADJUST are not at their coordinates in the deck.
         let adjusted = self.mesh.pairs.iter().filter(|pair| pair.adjust.is_some());
         let adjusted: HashSet<NodeId> =
             adjusted.flat_map(|pair| nodes_of(&self.mesh.surfaces[pair.slave].kind)).collect();
@@ -252,7 +252,7 @@ impl<'a> Places<'a> {
                 *labels = on_surface;
             }
         }
-        // A label that is the only one of a node is none of another.
+        // The unique label of a node is excluded for others.
         loop {
             let certain: HashSet<i64> =
                 candidates.iter().filter(|labels| labels.len() == 1).map(|labels| labels[0]).collect();
@@ -291,7 +291,7 @@ impl<'a> Places<'a> {
     /// For each node of the mesh the labels of the file at its place.
     fn candidates(&self) -> Vec<Vec<i64>> {
         let largest = self.mesh.points.iter().flatten().fold(0.0, |most: f64, value| most.max(self.tolerance(*value)));
-        // Wide enough that few points are near to the border of their cell.
+        // Wide enough that few points are near the boundary of their cell.
         let width = if 0.0 < largest { 16.0 * largest } else { 1.0 };
         let mut cells: HashMap<[i64; 3], Vec<usize>> = HashMap::new();
         for (node, point) in self.mesh.points.iter().enumerate() {
@@ -354,7 +354,7 @@ impl FileSurfaces {
         surfaces
     }
 
-    /// Takes the nodes that a state has values of contact at.
+    /// Adds the nodes at which a state has contact values.
     pub(super) fn take(&mut self, frame: &Frame) {
         for field in &frame.fields {
             if let (Some(slave), Rows::Nodes(labels)) = (&field.region.slave, &field.rows) {

@@ -46,7 +46,7 @@ impl PairNames {
         }
     }
 
-    /// The pair that a surface, by its name, is one side of; `None` where it is none of any, or of several.
+    /// The pair of a surface, by its name; `None` where it belongs to none, or to several.
     pub(super) fn of_surface(&self, region: &Region) -> Option<(usize, Side)> {
         let name = region.set.as_ref()?;
         let sides = self.0.iter().enumerate().flat_map(|(pair, [slave, master])| {
@@ -63,7 +63,7 @@ fn is(deck: &str, file: &str) -> bool {
     file == deck || file.strip_suffix(deck).is_some_and(|before| before.ends_with('_'))
 }
 
-/// A name as result files write it.
+/// A name in the spelling of result files.
 fn plain(name: &Name) -> String {
     name.canonical().to_ascii_uppercase().replace('.', "_").replace('"', "")
 }

@@ -25,7 +25,7 @@ pub(super) enum Quantity {
 }
 
 impl Quantity {
-    /// Whether it is of slave nodes as such.
+    /// Whether it belongs to slave nodes only.
     pub(super) fn is_of_contact(self) -> bool {
         !matches!(self, Self::Displacement(_) | Self::HeatFlux(_) | Self::Node(..))
     }
@@ -44,7 +44,7 @@ impl Quantity {
     }
 }
 
-/// The quantity of a column of a result file; `None` where it has no place in a node table.
+/// The quantity of a column of a result file; `None` without a counterpart in a node table.
 pub(super) fn of_column(name: &str, format: Format) -> Option<Quantity> {
     let name = name.to_ascii_uppercase();
     let known = match name.as_str() {
@@ -63,7 +63,7 @@ pub(super) fn of_column(name: &str, format: Format) -> Option<Quantity> {
         "CNAREA" => Quantity::Contact(ContactQuantity::Area, "CNAREA"),
         "CSHEAR1" => Quantity::Shear(0),
         "CSHEAR2" => Quantity::Shear(1),
-        // The slip of CalculiX is that of its elastic stick; a deck for it says the speed itself (K-38).
+        // The slip of CalculiX is the elastic stick displacement; a deck for it gives the speed itself (K-38).
         "CSLIP1" if !is_of_calculix(format) => Quantity::Slip(0),
         "CSLIP2" if !is_of_calculix(format) => Quantity::Slip(1),
         _ => return field_variable(&name).or_else(|| output(&name)),
@@ -81,7 +81,7 @@ fn field_variable(name: &str) -> Option<Quantity> {
     Some(Quantity::Node(NodeQuantity::FieldVariable(number), "FV"))
 }
 
-/// An output of Abaqus; those that are our own have small letters.
+/// An output of Abaqus; our own are in lower case.
 fn output(name: &str) -> Option<Quantity> {
     Output::NAMED.iter().copied().find(|output| output.to_string() == name).map(Quantity::Output)
 }

@@ -34,7 +34,7 @@ pub(super) struct Quantity {
 }
 
 impl Quantity {
-    /// The names of so many components; `freedoms` are the active degrees of freedom in their order.
+    /// The names of this many components; `freedoms` are the active degrees of freedom in order.
     pub(super) fn columns(&self, count: usize, freedoms: &[usize]) -> Vec<String> {
         (0..count).map(|at| self.column(at, count, freedoms)).collect()
     }
@@ -55,7 +55,7 @@ impl Quantity {
     }
 }
 
-/// The quantity of a record of this key, if it is one of nodes or of contact.
+/// The quantity of a record key, if it is nodal or of contact.
 pub(super) fn quantity(key: i64) -> Option<Quantity> {
     use Components::{Freedoms, From, Names};
     use Kind::{Contact, Nodal, Pair};

@@ -4,9 +4,9 @@ use crate::lines::{LineEnd, LineStream};
 use crate::number;
 use crate::problem::{Place, Problem, shown};
 
-/// The characters of a line. Blanks at its end may have been lost on the way; they belong to words.
+/// The characters of a line. Trailing blanks may have been lost; they belong to words.
 const LINE: usize = 80;
-/// The most words of a record, far above the 80 of the manual.
+/// The maximum number of words of a record, far above the 80 of the manual.
 const MOST_WORDS: i64 = 1 << 20;
 
 pub(super) const CUT: &str =
@@ -29,7 +29,7 @@ impl Word {
         }
     }
 
-    /// A value: integers are values too where a program writes a whole number so.
+    /// A value, which may be written as an integer.
     pub(super) fn real(self) -> Option<f64> {
         match self {
             Self::Real(value) => Some(value),
@@ -54,7 +54,7 @@ pub(super) struct Record<'a> {
     pub(super) place: Place,
 }
 
-/// Reads records one after the other.
+/// Reads records sequentially.
 pub(super) struct Records<'a, 'b> {
     lines: &'a mut LineStream<'b>,
     column: usize,

@@ -73,7 +73,7 @@ impl Table {
 
     /// The names of the columns, from the lines above them.
     ///
-    /// A name may hold blanks: where a line has other cells than there are columns, the text above a column is its name.
+    /// A name may contain blanks: where the number of cells of a line differs from that of columns, the text above a column is its name.
     pub(super) fn names(&self, head: &[Line<'_>]) -> Vec<String> {
         let mut names = vec![String::new(); self.columns.len()];
         for line in head {

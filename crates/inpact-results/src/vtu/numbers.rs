@@ -139,7 +139,7 @@ impl Encoding {
             }
             NumberType::Float(_) => Values::Reals(patterns.map(f64::from_bits).collect()),
             NumberType::Signed(_) | NumberType::Unsigned(8) => {
-                // The sign of a narrow word is its highest bit.
+                // Sign extension of a narrow integer.
                 let unused = 64 - 8 * width;
                 Values::Integers(patterns.map(|pattern| (pattern << unused).cast_signed() >> unused).collect())
             }
@@ -157,7 +157,7 @@ impl Encoding {
     }
 }
 
-/// The bytes of base64, which may be of several texts one after the other, each with its own padding.
+/// Decodes base64, which may be several concatenated texts, each with its own padding.
 pub(super) fn decoded(text: &[u8]) -> Result<Vec<u8>, String> {
     let mut plain: Vec<u8> = text.to_vec();
     plain.retain(|byte| !byte.is_ascii_whitespace());

@@ -87,7 +87,7 @@ pub fn read_grid(bytes: &[u8]) -> (Grid, Option<Problem>) {
 fn appended(bytes: &[u8]) -> Option<&[u8]> {
     let begin = memchr::memmem::find(bytes, b"<AppendedData")?;
     let mark = begin + memchr::memchr(b'_', &bytes[begin..])?;
-    // Base64 would have to be taken apart array by array.
+    // Base64 would have to be split array by array.
     memchr::memmem::find(&bytes[begin..mark], b"raw").map(|_| &bytes[mark + 1..])
 }
 
@@ -132,7 +132,7 @@ impl Reader<'_> {
                     self.cells(tags)?;
                 }
                 b"DataArray" if section != Section::Elsewhere => self.array(tags, &tag, section)?,
-                // After it come bytes that are no XML.
+                // It is followed by bytes that are not XML.
                 b"AppendedData" | b"/VTKFile" => return self.end(tags),
                 _ => (),
             }
@@ -182,7 +182,7 @@ impl Reader<'_> {
         };
         let of_type = tag.attribute("type").unwrap_or_default();
         let Some(of_type) = NumberType::named(&of_type) else {
-            // Texts, for one, which no field is.
+            // For example texts, which cannot be a field.
             tags.text(tag)?;
             return Ok(());
         };

@@ -5,7 +5,7 @@ use crate::problem::{Place, Problem, shown};
 pub(super) const CUT: &str = "the file is cut short: copy it again, or let its program end; the part before is read";
 pub(super) const DAMAGED: &str = "the file is damaged here, or is no .vtu; the part before is read";
 
-/// An element's begin or end.
+/// A start or end tag.
 #[derive(Debug)]
 pub(super) struct Tag<'a> {
     /// Its name; an end has `/` before it.
@@ -35,7 +35,7 @@ impl Tag<'_> {
     }
 }
 
-/// Goes through a file, tag by tag.
+/// Iterates over the tags of a file.
 pub(super) struct Tags<'a> {
     bytes: &'a [u8],
     at: usize,
@@ -126,7 +126,7 @@ fn unescaped(text: &[u8]) -> String {
     if !text.contains('&') {
         return text.into_owned();
     }
-    // The ampersand last, or `&amp;lt;` would become `<`.
+    // The ampersand last, otherwise `&amp;lt;` would become `<`.
     [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&apos;", "'"), ("&amp;", "&")]
         .iter()
         .fold(text.into_owned(), |text, (escape, letter)| text.replace(escape, letter))
