@@ -10,7 +10,7 @@ use crate::reach::{folder_of_deck, irregular};
 use crate::rules;
 use crate::stop::Stop;
 use clap::ValueEnum;
-use globset::{Glob, GlobMatcher};
+use globset::{Glob, GlobSet};
 use inpact_diagnostics::{Diagnostic, Severity};
 use inpact_parser::deck::{EditedText, Keep};
 use inpact_parser::grammar::{Dialect, Grammar, Release};
@@ -132,7 +132,7 @@ impl ReadOptions {
 /// The dialects by the names users give them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub(crate) enum DialectName {
+enum DialectName {
     /// Abaqus/Standard and Abaqus/Explicit.
     Abaqus,
     /// CalculiX ccx.
@@ -140,7 +140,7 @@ pub(crate) enum DialectName {
 }
 
 impl DialectName {
-    pub(crate) fn dialect(self) -> Dialect {
+    fn dialect(self) -> Dialect {
         match self {
             Self::Abaqus => Dialect::Abaqus,
             Self::Calculix => Dialect::Calculix,
@@ -220,10 +220,10 @@ pub(crate) struct Settings {
     /// Whether an argument says what the only root is.
     has_named_root: bool,
     levels: BTreeMap<String, Level>,
-    ignores: Vec<(Vec<GlobMatcher>, Vec<String>)>,
+    ignores: Vec<(GlobSet, Vec<String>)>,
     /// Which files of a folder are decks besides `*.inp`, and which are none.
-    include: Vec<GlobMatcher>,
-    exclude: Vec<GlobMatcher>,
+    include: GlobSet,
+    exclude: GlobSet,
     /// The folder of the configuration file, which the paths in `ignores` are relative to.
     root: PathBuf,
     /// Files whose content is known.
@@ -259,6 +259,8 @@ impl Settings {
             (None, Some(RootEntry::Repository(false)) | None) => None,
         };
         let named = options.include_dirs.iter();
+        let ignored = file.ignore.into_iter().map(|of| Ok((globs(&of.paths, &found, "ignore.paths")?, of.rules)));
+        let ignores = ignored.collect::<Result<_, Failure>>()?;
         Ok(Self {
             grammar: grammar_of(dialect, release),
             include_dirs: named.clone().cloned().chain(from_file).collect(),
@@ -267,7 +269,7 @@ impl Settings {
             has_named_root: options.include_root.is_some(),
             relative_to: options.relative_to.or(file.relative_to).unwrap_or(RelativeTo::Deck),
             levels: file.rules,
-            ignores: file.ignore.iter().map(|entry| matchers(entry, &found)).collect::<Result<_, _>>()?,
+            ignores,
             include: globs(&file.include, &found, "include")?,
             exclude: globs(&file.exclude, &found, "exclude")?,
             root: found.canonicalize().ok().and_then(|found| Some(found.parent()?.to_owned())).unwrap_or_default(),
@@ -290,8 +292,8 @@ impl Settings {
             has_named_root: false,
             levels: BTreeMap::new(),
             ignores: Vec::new(),
-            include: Vec::new(),
-            exclude: Vec::new(),
+            include: GlobSet::empty(),
+            exclude: GlobSet::empty(),
             root: PathBuf::new(),
             overlay,
             stop: Stop::default(),
@@ -353,17 +355,11 @@ fn in_file(file: &Path, message: &str) -> Failure {
     Failure::Usage(format!("`{}`: {message}", file.display()))
 }
 
-fn matchers(entry: &IgnoreEntry, file: &Path) -> Result<(Vec<GlobMatcher>, Vec<String>), Failure> {
-    Ok((globs(&entry.paths, file, "ignore.paths")?, entry.rules.clone()))
-}
-
 /// The patterns of a key of the configuration.
-fn globs(patterns: &[String], file: &Path, key: &str) -> Result<Vec<GlobMatcher>, Failure> {
-    let compile = |pattern: &String| {
-        let glob = Glob::new(pattern).map_err(|error| in_file(file, &format!("`{key}`: {error}")))?;
-        Ok(glob.compile_matcher())
-    };
-    patterns.iter().map(compile).collect()
+fn globs(patterns: &[String], file: &Path, key: &str) -> Result<GlobSet, Failure> {
+    let wrong = |error| in_file(file, &format!("`{key}`: {error}"));
+    let globs = patterns.iter().map(|pattern| Glob::new(pattern)).collect::<Result<Vec<_>, _>>();
+    GlobSet::new(globs.map_err(wrong)?).map_err(wrong)
 }
 
 /// The language of a dialect and release; made once, and there are few.
@@ -426,9 +422,8 @@ impl Settings {
     /// Whether a file of a folder is a deck: `*.inp` and what `include` adds, but for what `exclude` names.
     pub(crate) fn takes(&self, file: &Path) -> bool {
         let relative = self.relative(file);
-        let matches = |matchers: &[GlobMatcher]| matchers.iter().any(|matcher| matcher.is_match(&relative));
         let is_deck = file.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("inp"));
-        (is_deck || matches(&self.include)) && !matches(&self.exclude)
+        (is_deck || self.include.is_match(&relative)) && !self.exclude.is_match(&relative)
     }
 
     /// A file as the patterns of the configuration name it.
@@ -439,7 +434,6 @@ impl Settings {
 
     fn is_ignored(&self, code: &str, file: &Path) -> bool {
         let relative = self.relative(file);
-        let matches = |matchers: &[GlobMatcher]| matchers.iter().any(|matcher| matcher.is_match(&relative));
-        self.ignores.iter().any(|(paths, codes)| codes.iter().any(|ignored| ignored == code) && matches(paths))
+        self.ignores.iter().any(|(paths, codes)| codes.iter().any(|of| of == code) && paths.is_match(&relative))
     }
 }

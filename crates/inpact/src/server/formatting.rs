@@ -42,26 +42,16 @@ fn edits(view: View<'_>, selected: Span) -> Vec<TextEdit> {
 fn narrowed(view: View<'_>, edit: Edit) -> TextEdit {
     let before = view.text(Span::new(view.source, edit.span.start(), edit.span.end())).into_owned();
     let after = edit.replacement;
-    let same_lines = |lengths: &mut dyn Iterator<Item = (u8, u8)>, is_end: fn(u8) -> bool| {
-        let mut same = 0;
-        let mut whole = 0;
-        for (a, b) in lengths {
-            if a != b {
-                break;
-            }
-            same += 1;
-            if is_end(a) {
-                whole = same;
-            }
-        }
-        whole
-    };
-    let start = same_lines(&mut before.iter().copied().zip(after.iter().copied()), |byte| byte == b'\n');
-    let rest = (&before[start..], &after[start..]);
-    let mut from_end = rest.0.iter().rev().copied().zip(rest.1.iter().rev().copied());
+    let start = same_lines(before.iter().zip(&after));
     // Counted from the end, a line begins after the line end before it.
-    let end = same_lines(&mut from_end, |byte| byte == b'\n').saturating_sub(1);
+    let end = same_lines(before[start..].iter().rev().zip(after[start..].iter().rev())).saturating_sub(1);
     let span = Span::new(view.source, edit.span.start() + start as u64, edit.span.end() - end as u64);
     let new_text = String::from_utf8_lossy(&after[start..after.len() - end]).into_owned();
     TextEdit { range: view.range(span), new_text }
+}
+
+/// How many bytes are the same up to the last line end among them.
+fn same_lines<'a>(pairs: impl Iterator<Item = (&'a u8, &'a u8)>) -> usize {
+    let same = (1..).zip(pairs.take_while(|(a, b)| a == b));
+    same.filter(|(_, (byte, _))| **byte == b'\n').last().map_or(0, |(count, _)| count)
 }

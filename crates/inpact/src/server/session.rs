@@ -6,7 +6,7 @@ use super::refusal::Refusal;
 use super::requests;
 use super::transport::Client;
 use super::workspace::Workspace;
-use crate::settings::{DialectName, ReadOptions, RelativeTo};
+use crate::settings::{DeckArguments, ReadOptions};
 use crate::stop::Stop;
 use gen_lsp_types::{
     Diagnostic, DidChangeTextDocumentParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams, FileSystemWatcher,
@@ -14,7 +14,6 @@ use gen_lsp_types::{
     Registration, RegistrationParams, Uri,
 };
 use inpact_parser::deck::EditedText;
-use inpact_parser::grammar::Release;
 use lsp_server::{ErrorCode, Notification, Request, Response};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
@@ -22,7 +21,6 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 use std::io::{self, Write};
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::PathBuf;
 
 /// The state of a session with one editor.
 #[derive(Debug)]
@@ -32,19 +30,6 @@ pub(super) struct Session {
     published: BTreeMap<String, (Option<i32>, Vec<Diagnostic>)>,
     /// Whether something may have changed since.
     has_news: bool,
-}
-
-/// The settings of an editor: those of `inpact.toml` that make sense for all decks.
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "camelCase", default)]
-struct EditorSettings {
-    dialect: Option<DialectName>,
-    release: Option<String>,
-    include_dirs: Vec<PathBuf>,
-    include_root: Option<PathBuf>,
-    relative_to: Option<RelativeTo>,
-    config: Option<PathBuf>,
-    isolated: bool,
 }
 
 impl Session {
@@ -206,26 +191,5 @@ fn options_of(settings: &Value) -> Result<ReadOptions, String> {
     if settings.is_null() {
         return Ok(ReadOptions::new());
     }
-    let settings = EditorSettings::deserialize(settings).map_err(|error| error.to_string())?;
-    let mut options = ReadOptions::new();
-    if let Some(dialect) = settings.dialect {
-        options = options.dialect(dialect.dialect());
-    }
-    if let Some(release) = settings.release.filter(|release| !release.is_empty()) {
-        let release: Release = release.parse().map_err(|error| format!("`release`: {error}"))?;
-        options = options.release(release);
-    }
-    for folder in settings.include_dirs {
-        options = options.include_dir(folder);
-    }
-    if let Some(folder) = settings.include_root.filter(|folder| !folder.as_os_str().is_empty()) {
-        options = options.include_root(folder);
-    }
-    if let Some(relative_to) = settings.relative_to {
-        options = options.relative_to(relative_to);
-    }
-    if let Some(file) = settings.config.filter(|file| !file.as_os_str().is_empty()) {
-        options = options.configuration(file);
-    }
-    Ok(if settings.isolated { options.isolated() } else { options })
+    DeckArguments::deserialize(settings).map(|arguments| arguments.options()).map_err(|error| error.to_string())
 }
