@@ -10,6 +10,7 @@ use crate::failure::Failure;
 use crate::files::{self, STANDARD_STREAM};
 use crate::reach::{self, folder_of_deck};
 use crate::settings::{RelativeTo, Settings};
+use crate::text::in_backticks;
 use inpact_diagnostics::Diagnostic;
 use inpact_parser::Problem;
 use inpact_parser::deck::{Deck, Excerpts, FoundFile, IncludedFiles, Keep, ScanOptions, Scanner};
@@ -164,8 +165,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
                 Some(reason) => Err(reason.to_owned()),
             };
         }
-        let searched: Vec<String> = folders.map(|folder| format!("`{}`", shown_folder(folder))).collect();
-        let mut reason = format!("there is no such file in {}", searched.join(", "));
+        let mut reason = format!("there is no such file in {}", in_backticks(folders.map(shown_folder)));
         if beside_includer.join(name).is_file() {
             reason += "; there is one beside the file that includes it (`--relative-to including-file`)";
         }

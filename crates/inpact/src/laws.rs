@@ -2,6 +2,7 @@
 
 use crate::deck::Deck;
 use crate::error::Error;
+use crate::text::in_backticks;
 use crate::threads::{threads_for, with_threads};
 use inpact_evaluation::law::{Clearance, ConductanceTables, ContactPoint, ContactPressure, ContactState};
 use inpact_evaluation::table::{AxisSummary, PiecewiseTable, TableKernel, Tail};
@@ -69,8 +70,8 @@ impl Deck {
     /// An interaction that the deck does not have, or a table that cannot be evaluated, as [`check`](Self::check) says.
     pub fn electrical_conductance(&self, interaction: &str) -> Result<Option<GapConductance>, Error> {
         let Some(interaction) = self.model().interactions.get(&Name::new(interaction)) else {
-            let names: Vec<String> = self.model().interactions.keys().map(|name| format!("`{name}`")).collect();
-            let names = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            let names = in_backticks(self.model().interactions.keys());
+            let names = if names.is_empty() { "none" } else { &names };
             let message = format!("`{}` has no interaction `{interaction}`: there are {names}", self.name());
             return Err(Error::data(message));
         };

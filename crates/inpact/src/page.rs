@@ -1,5 +1,6 @@
 //! The pages of rules, keywords and columns as Markdown, for `explain` and the documentation.
 
+use crate::text::in_backticks;
 use inpact_diagnostics::{FixKind, Rule};
 use inpact_evaluation::nodes::{COLUMN_PAGES, ColumnPage};
 use inpact_evaluation::results::{OUTPUT_PAGES, OutputPage};
@@ -30,7 +31,7 @@ pub fn of_rule(rule: &Rule) -> String {
 
 /// The page of a column of node tables.
 pub(crate) fn of_column(column: &ColumnPage) -> String {
-    let (name, others) = (column.names[0], names(&column.names[1..]));
+    let (name, others) = (column.names[0], in_backticks(&column.names[1..]));
     let mut page = format!("# {name}\n\nA column of node tables: {}.\n\n", column.meaning);
     if !others.is_empty() {
         let _ = writeln!(page, "- Other names: {others}");
@@ -58,7 +59,7 @@ pub(crate) fn of_columns() -> String {
     page += "Units are by dimension: M mass, L length, T time, θ temperature, φ electric potential, C charge.\n\n";
     page += "| column | other names | meaning | unit | read by | source |\n|---|---|---|---|---|---|\n";
     for ColumnPage { names: all, meaning, unit, read_by, source, .. } in COLUMN_PAGES {
-        let others = names(&all[1..]);
+        let others = in_backticks(&all[1..]);
         let _ = writeln!(page, "| `{}` | {others} | {meaning} | {unit} | {read_by} | {source} |", all[0]);
     }
     page += "\n## Columns of results\n\n";
@@ -70,10 +71,6 @@ pub(crate) fn of_columns() -> String {
         let _ = writeln!(page, "| `{output}` | {meaning} | {unit} | {needs} | {source} |");
     }
     page
-}
-
-fn names(all: &[&str]) -> String {
-    all.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// The page of a keyword.

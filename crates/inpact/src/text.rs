@@ -11,6 +11,11 @@ pub(crate) fn counted(number: impl Display, what: &str) -> String {
     format!("{number} {what}{ending}")
 }
 
+/// Names one after another: `` `a`, `b` ``.
+pub(crate) fn in_backticks(names: impl IntoIterator<Item = impl Display>) -> String {
+    names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+}
+
 /// The shortest text of a number that reads back as it.
 pub(crate) fn number_text(value: f64) -> String {
     let mut text = Vec::new();

@@ -1,5 +1,7 @@
 //! A logarithmic axis: its range, its ticks and their labels.
 
+use crate::curves::range;
+
 /// A logarithmic axis over a stretch of the drawing.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Axis {
@@ -30,11 +32,7 @@ impl Axis {
     /// An axis that holds these numbers above zero with some room at its ends.
     pub(super) fn around(numbers: impl Iterator<Item = f64>, start: f64, end: f64) -> Self {
         let logarithms = numbers.filter(|number| 0.0 < *number && number.is_finite()).map(f64::log10);
-        let (mut least, mut greatest) = logarithms
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(least, greatest), at| (least.min(at), greatest.max(at)));
-        if greatest < least {
-            (least, greatest) = (0.0, 0.0);
-        }
+        let (mut least, mut greatest) = range(logarithms).unwrap_or((0.0, 0.0));
         // A decade at least, and a tenth of the range on both sides.
         let missing = (1.0 - (greatest - least)).max(0.0) / 2.0;
         (least, greatest) = (least - missing, greatest + missing);

@@ -17,7 +17,7 @@ use crate::input::{self, HeldFiles, Kind, LocatedDeck, kind_of};
 use crate::progress::Progress;
 use crate::render::{self, Format, Sources, Style};
 use crate::settings::{DeckArguments, Settings};
-use crate::text::counted;
+use crate::text::{counted, in_backticks};
 use crate::threads::with_threads;
 use clap::Args;
 use inpact_contact::check_geometry;
@@ -116,6 +116,11 @@ impl CheckArguments {
         if self.selection().is_some() { Same::Place } else { Same::Content }
     }
 
+    /// Whether findings are printed one by one.
+    fn shows_findings(&self) -> bool {
+        !self.statistics && !self.diff
+    }
+
     /// The fixes to apply; `None` without `--fix` and `--diff`.
     fn selection(&self) -> Option<FixSelection> {
         let is_wanted = self.fix || self.diff || self.fix_included || !self.fix_also.is_empty();
@@ -144,8 +149,8 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     }
     let decks = decks::find(&arguments.decks, arguments.same(), &arguments.reading)?;
     if decks.is_empty() {
-        let folders: Vec<String> = arguments.decks.iter().map(|path| format!("`{}`", path.display())).collect();
-        say(&format!("warning: there is no deck in {}", folders.join(", ")));
+        let folders = in_backticks(arguments.decks.iter().map(|path| path.display()));
+        say(&format!("warning: there is no deck in {folders}"));
     }
     Ok(check_all(&decks, arguments)?.outcome)
 }
@@ -196,7 +201,7 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
     let mut unreadable = mending.has_failed;
     let (mut kinds, mut remarks): (Vec<Kind>, Vec<String>) = (Vec::new(), Vec::new());
     let document = render::document(arguments.format);
-    let has_frame = !arguments.statistics && !arguments.diff;
+    let has_frame = arguments.shows_findings();
     let mut text = if has_frame { document.head } else { String::new() };
     let mut is_first = true;
     for result in checked {
@@ -309,11 +314,8 @@ fn judge(
         Vec::new()
     };
     let diagnostics = settings.apply(check_with(deck, settings.grammar, &model, &problems, of_geometry));
-    let text = if arguments.diff || arguments.statistics {
-        String::new()
-    } else {
-        render::diagnostics(&diagnostics, Sources::Deck(deck), arguments.format, style)
-    };
+    let shown = if arguments.shows_findings() { &diagnostics[..] } else { &[] };
+    let text = render::diagnostics(shown, Sources::Deck(deck), arguments.format, style);
     Ok((text, Tally::of_findings(&diagnostics)))
 }
 

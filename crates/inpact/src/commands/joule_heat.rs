@@ -1,5 +1,6 @@
 //! Joule heat in bodies: the fraction that their links turn into heat, and notes where the deck does not define it.
 
+use crate::text::in_backticks;
 use inpact_body::{BodyField, JouleHeat, Lumped};
 use inpact_parser::mesh::MeshNote;
 use inpact_parser::model::Name;
@@ -28,8 +29,7 @@ impl JouleHeats {
             return heats;
         };
         for body in electrical.bodies.iter().filter(|body| 1 < body.terminals.len()) {
-            let names: Vec<String> = body.terminals.iter().map(|at| format!("`{}`", terminals[*at])).collect();
-            let body_of = format!("the body of {}", names.join(", "));
+            let body_of = format!("the body of {}", in_backticks(body.terminals.iter().map(|at| terminals[*at])));
             match &body.joule_heat {
                 JouleHeat::Share(share) => {
                     body.terminals.iter().for_each(|at| heats.shares[*at] = Some(*share));

@@ -15,6 +15,7 @@ use crate::files;
 use crate::input::ReadDeck;
 use crate::report;
 use crate::settings::{DeckArguments, Settings};
+use crate::text::in_backticks;
 use clap::Args;
 use inpact_parser::deck::Keep;
 use inpact_parser::model::{Model, Name};
@@ -109,9 +110,8 @@ impl DrawingArguments {
         for name in &self.interaction {
             let wanted = Name::new(name);
             if !models.iter().any(|model| model.interactions.contains_key(&wanted)) {
-                let known = models.iter().flat_map(|model| model.interactions.keys()).map(|name| format!("`{name}`"));
-                let known: Vec<String> = known.take(8).collect();
-                let message = format!("there is no interaction `{name}`; there are {}", known.join(", "));
+                let known = in_backticks(models.iter().flat_map(|model| model.interactions.keys()).take(8));
+                let message = format!("there is no interaction `{name}`; there are {known}");
                 return Err(Failure::Usage(message));
             }
         }
@@ -233,13 +233,10 @@ fn figures(
 
 /// The reason why there is no curve at all.
 fn nothing_to_draw(figures: &[Figure]) -> Failure {
-    let decks: Vec<String> = figures.iter().map(|figure| format!("`{}`", figure.deck)).collect();
+    let decks = in_backticks(figures.iter().map(|figure| &figure.deck));
     let notes: Vec<&str> = figures.iter().flat_map(|figure| &figure.notes).map(String::as_str).collect();
     let reasons = if notes.is_empty() { String::new() } else { format!(" ({})", notes.join("; ")) };
-    Failure::Data(format!(
-        "there is no table of conductance, permeability or view factor to draw in {}{reasons}",
-        decks.join(", ")
-    ))
+    Failure::Data(format!("there is no table of conductance, permeability or view factor to draw in {decks}{reasons}"))
 }
 
 fn picture(text: &str) -> Result<Picture, String> {

@@ -45,7 +45,7 @@ fn tree(view: View<'_>) -> Vec<Node<'_>> {
         if is_in_interaction && !is_option && !matches!(entry.name, "INCLUDE" | "PARAMETER") {
             close_last(&mut open, &mut roots);
         }
-        let closes = open.iter().rposition(|node| node.opens == closing(entry.name));
+        let closes = open.iter().rposition(|node| matches!(node.opens, Opens::Until(closing) if closing == entry.name));
         let level = LEVELS.into_iter().find(|(opens, _, _)| entry.name == *opens);
         let opens = match level {
             Some((_, closing, _)) => Opens::Until(closing),
@@ -78,13 +78,6 @@ fn close_last<'a>(open: &mut Vec<Node<'a>>, roots: &mut Vec<Node<'a>>) {
         Some(parent) => parent.children.push(node),
         None => roots.push(node),
     }
-}
-
-fn closing(keyword: &str) -> Opens {
-    LEVELS
-        .into_iter()
-        .find(|(_, closes, _)| keyword == *closes)
-        .map_or(Opens::Nothing, |(_, closes, _)| Opens::Until(closes))
 }
 
 pub(super) fn symbols(

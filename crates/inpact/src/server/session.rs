@@ -137,11 +137,10 @@ impl Session {
             workspace.refresh();
             findings::by_file(workspace)
         }));
-        let Ok(found) = found else {
+        let Ok(mut found) = found else {
             let message = "a deck could not be checked, by a fault of inpact; what is open is not affected".to_owned();
             return log_error(client, message);
         };
-        let mut found: BTreeMap<String, (Option<i32>, Vec<Diagnostic>)> = found;
         for uri in self.published.keys() {
             // What is wrong no more is said once.
             found.entry(uri.clone()).or_default();

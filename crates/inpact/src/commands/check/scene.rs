@@ -70,7 +70,7 @@ pub(super) fn check<'a>(path: &'a Path, arguments: &CheckArguments, style: Style
     let mut judge = Judge {
         format: arguments.format,
         style,
-        has_text: !arguments.diff && !arguments.statistics,
+        has_text: arguments.shows_findings(),
         separator: render::document(arguments.format).separator,
         text: String::new(),
         tally: Tally::default(),

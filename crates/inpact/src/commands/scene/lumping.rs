@@ -7,6 +7,7 @@
 use super::terminals::Terminal;
 use super::{SAME_AREA, network_field};
 use crate::commands::joule_heat::JouleHeats;
+use crate::text::in_backticks;
 use inpact_body::Lumped;
 use inpact_contact::{Interfaces, LumpedPair, PairInterfaces};
 use inpact_evaluation::law::{Clearance, ContactPoint, ContactPressure, ContactState, InterfaceLaws};
@@ -45,11 +46,10 @@ impl Lumping {
                 ));
             }
             for body in of.bodies.iter().filter(|body| 2 < body.terminals.len()) {
-                let names: Vec<String> = body.terminals.iter().map(|at| format!("`{}`", terminals[*at].name)).collect();
+                let names = in_backticks(body.terminals.iter().map(|at| &terminals[*at].name));
                 lumping.costs(body.relative);
                 lumping.lines.push(format!(
-                    "the body of {}: {key} conductances with even flows at most {} less, whatever the values of its terminals",
-                    names.join(", "),
+                    "the body of {names}: {key} conductances with even flows at most {} less, whatever the values of its terminals",
                     percent(body.relative)
                 ));
             }

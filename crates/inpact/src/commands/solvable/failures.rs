@@ -1,5 +1,6 @@
 //! Findings of a scene that was not solved.
 
+use crate::text::in_backticks;
 use inpact_diagnostics::{Diagnostic, Findings, Place};
 use inpact_evaluation::nodes::USER_FAULT;
 use inpact_network::scene::{
@@ -114,8 +115,7 @@ fn floating_help(of: Option<Field>, field: &str, scene: &Scene) -> String {
 }
 
 fn names(scene: &Scene, nodes: &[u32]) -> String {
-    let named: Vec<String> =
-        nodes.iter().take(MOST_NAMED).map(|&node| format!("`{}`", scene.nodes[node as usize])).collect();
-    let others = nodes.len() - named.len();
-    if others == 0 { named.join(", ") } else { format!("{} and {others} more nodes", named.join(", ")) }
+    let named = in_backticks(nodes.iter().take(MOST_NAMED).map(|&node| &scene.nodes[node as usize]));
+    let others = nodes.len().saturating_sub(MOST_NAMED);
+    if others == 0 { named } else { format!("{named} and {others} more nodes") }
 }
