@@ -116,6 +116,10 @@ impl CheckArguments {
         if self.selection().is_some() { Same::Place } else { Same::Content }
     }
 
+    fn style(&self) -> Style {
+        if self.output.is_some() { Style::Plain } else { Style::of_standard_output() }
+    }
+
     /// Whether findings are printed one by one.
     fn shows_findings(&self) -> bool {
         !self.statistics && !self.diff
@@ -164,13 +168,11 @@ struct Round {
 
 /// Checks decks, mends them where that is asked for, and says what was found.
 fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failure> {
-    let style = if arguments.output.is_some() { Style::Plain } else { Style::of_standard_output() };
     let changed = arguments.since.as_deref().map(Changed::since).transpose()?;
     let progress = Progress::over(decks.iter().map(|deck| deck.path.as_path()), arguments.quiet);
-    let selection = arguments.selection();
     let mut checked: Vec<Result<Checked<'_>, Failure>> = with_threads(0, || {
         let decks = decks.par_iter();
-        decks.map(|deck| check_one(&deck.path, arguments, selection.as_ref(), style, &progress)).collect()
+        decks.map(|deck| check_one(&deck.path, arguments, &progress)).collect()
     });
     progress.finish();
     let places_of = |result: &Result<Checked<'_>, Failure>| match result {
@@ -192,8 +194,8 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
         };
         !is_part && result.as_ref().map_or(true, has_changed)
     });
-    let mending = match &selection {
-        Some(selection) => with_threads(0, || mending::mend(&mut checked, arguments, selection, style)),
+    let mending = match arguments.selection() {
+        Some(selection) => with_threads(0, || mending::mend(&mut checked, arguments, &selection)),
         None => Mending::default(),
     };
     let mut output = files::ResultFile::create(arguments.output.as_deref())?;
@@ -252,42 +254,31 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
     Ok(Round { outcome, places })
 }
 
-fn check_one<'a>(
-    path: &'a Path,
-    arguments: &CheckArguments,
-    selection: Option<&FixSelection>,
-    style: Style,
-    progress: &Progress,
-) -> Result<Checked<'a>, Failure> {
+fn check_one<'a>(path: &'a Path, arguments: &CheckArguments, progress: &Progress) -> Result<Checked<'a>, Failure> {
     match kind_of(path) {
-        Kind::Deck => check_deck(path, arguments, selection, style, progress),
-        Kind::Scene => scene::check(path, arguments, style).inspect(|_| progress.advance(path)),
+        Kind::Deck => check_deck(path, arguments, progress),
+        Kind::Scene => scene::check(path, arguments).inspect(|_| progress.advance(path)),
     }
 }
 
 /// Checks a deck as it is; the files of one that needs mending are held.
-fn check_deck<'a>(
-    path: &'a Path,
-    arguments: &CheckArguments,
-    selection: Option<&FixSelection>,
-    style: Style,
-    progress: &Progress,
-) -> Result<Checked<'a>, Failure> {
+fn check_deck<'a>(path: &'a Path, arguments: &CheckArguments, progress: &Progress) -> Result<Checked<'a>, Failure> {
+    let selection = arguments.selection();
     let mut settings = arguments.reading.settings(path)?;
     arguments.format.confine(&mut settings, path);
     if selection.is_some() && path.as_os_str() == files::STANDARD_STREAM {
         return Err(Failure::Usage("standard input cannot be mended in place: name a file".to_owned()));
     }
-    let held = selection.map(|_| HeldFiles::default());
+    let held = selection.as_ref().map(|_| HeldFiles::default());
     let mut deck = input::read_located_deck(path, arguments.keep(path), &settings, held.as_ref())?;
     progress.advance(path);
-    let need = selection.map_or(Need::Nothing, |selection| fixing::need_of(&deck, &settings, selection));
-    let (mut text, mut tally) = judge(path, &deck, &settings, arguments, style)?;
+    let need = selection.map_or(Need::Nothing, |selection| fixing::need_of(&deck, &settings, &selection));
+    let (mut text, mut tally) = judge(path, &deck, &settings, arguments)?;
     if deck.deck.lacks_rows() {
         // Something is to be said of a table of which not all was kept.
         drop(deck);
         deck = input::read_located_deck(path, Keep::Interpreted, &settings, None)?;
-        (text, tally) = judge(path, &deck, &settings, arguments, style)?;
+        (text, tally) = judge(path, &deck, &settings, arguments)?;
     }
     let held = held.filter(|_| need == Need::Mending);
     let (kind, remarks, places) = (Kind::Deck, Vec::new(), deck.places);
@@ -300,7 +291,6 @@ fn judge(
     located: &LocatedDeck,
     settings: &Settings,
     arguments: &CheckArguments,
-    style: Style,
 ) -> Result<(String, Tally), Failure> {
     let deck = &located.deck;
     let (model, problems) = model::read(deck, settings.grammar);
@@ -315,7 +305,7 @@ fn judge(
     };
     let diagnostics = settings.apply(check_with(deck, settings.grammar, &model, &problems, of_geometry));
     let shown = if arguments.shows_findings() { &diagnostics[..] } else { &[] };
-    let text = render::diagnostics(shown, Sources::Deck(deck), arguments.format, style);
+    let text = render::diagnostics(shown, Sources::Deck(deck), arguments.format, arguments.style());
     Ok((text, Tally::of_findings(&diagnostics)))
 }
 

@@ -6,7 +6,6 @@ use crate::failure::{Failure, say, say_failures};
 use crate::files::transaction;
 use crate::fixing::{self, FixSelection, Mended, Purpose, Subject};
 use crate::input::{self, HeldFiles};
-use crate::render::Style;
 use crate::text::counted;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -27,7 +26,6 @@ pub(super) fn mend(
     checked: &mut [Result<Checked<'_>, Failure>],
     arguments: &CheckArguments,
     selection: &FixSelection,
-    style: Style,
 ) -> Mending {
     let held = HeldFiles::default();
     checked.iter_mut().flatten().filter_map(|checked| checked.held.take()).for_each(|files| held.take_over(files));
@@ -80,7 +78,7 @@ pub(super) fn mend(
             return;
         }
         if checked.kind == Kind::Scene {
-            match scene::check(checked.path, arguments, style) {
+            match scene::check(checked.path, arguments) {
                 Ok(again) => *checked = again,
                 Err(failure) => *result = Err(failure),
             }
@@ -88,7 +86,7 @@ pub(super) fn mend(
         }
         let keep = arguments.keep(checked.path);
         let read = input::read_located_deck(checked.path, keep, &checked.settings, Some(&held));
-        match read.and_then(|deck| judge(checked.path, &deck, &checked.settings, arguments, style)) {
+        match read.and_then(|deck| judge(checked.path, &deck, &checked.settings, arguments)) {
             Ok(judged) => (checked.text, checked.tally) = judged,
             Err(failure) => *result = Err(failure),
         }

@@ -66,10 +66,10 @@ impl Reporter for Judge<'_> {
 }
 
 /// Judges a scene.
-pub(super) fn check<'a>(path: &'a Path, arguments: &CheckArguments, style: Style) -> Result<Checked<'a>, Failure> {
+pub(super) fn check<'a>(path: &'a Path, arguments: &CheckArguments) -> Result<Checked<'a>, Failure> {
     let mut judge = Judge {
         format: arguments.format,
-        style,
+        style: arguments.style(),
         has_text: arguments.shows_findings(),
         separator: render::document(arguments.format).separator,
         text: String::new(),
