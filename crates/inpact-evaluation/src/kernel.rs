@@ -17,15 +17,19 @@
 mod axis;
 pub(crate) mod electrical;
 mod instruction_set;
+mod lanes;
 mod nested;
 mod pieces;
 #[cfg(target_arch = "x86_64")]
 mod registers;
 pub(crate) mod scan;
 mod search;
+#[cfg(target_arch = "x86_64")]
+mod vectors;
 
 pub use instruction_set::InstructionSet;
-pub(crate) use instruction_set::{Lanes, Operation};
+pub(crate) use instruction_set::Operation;
+pub(crate) use lanes::Lanes;
 pub use search::Search;
 
 use crate::table::{PiecewiseTable, Sides};

@@ -20,8 +20,8 @@ mod sum;
 
 pub use amount::Amount;
 pub use double_double::DoubleDouble;
+pub(crate) use float::{LEAST_ORDINARY, ORDINARY_LIMIT, is_moderate, is_ordinary, is_zero_or_ordinary};
 pub use float::{exponent_of, scale_by_power, two_difference, two_product, two_sum, ulp};
-pub(crate) use float::{is_moderate, is_ordinary, is_zero_or_ordinary};
 pub use product::{mean, product, ratio, scaled_difference_product};
 pub use scaled::Scaled;
 pub use segment::{KernelSlope, between, interpolate, slope};

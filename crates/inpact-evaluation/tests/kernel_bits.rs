@@ -48,19 +48,27 @@ fn value(random: &mut Random, numbers: Numbers) -> f64 {
     }
 }
 
-/// Rows of a ragged table: each group has abscissae of its own, sometimes only one.
-fn rows(random: &mut Random, numbers: Numbers, axes: usize, counts: &[usize], outer: &[f64], cells: &mut Vec<f64>) {
-    if axes == 0 {
+/// Rows of a table: along each axis all groups have the abscissae of `common`, or each its own, sometimes only one.
+fn rows(
+    random: &mut Random,
+    numbers: Numbers,
+    common: &[Option<Vec<f64>>],
+    counts: &[usize],
+    outer: &[f64],
+    cells: &mut Vec<f64>,
+) {
+    let axes = common.len();
+    let Some((common_knots, inside)) = common.split_last() else {
         cells.push(value(random, numbers));
         cells.extend(outer);
         return;
-    }
+    };
     let most = counts[axes - 1];
     let count = if random.below(5) == 0 { 1 } else { 1 + random.below(most) };
     let count = if axes == counts.len() && axes == 1 { most } else { count };
-    for knot in knots(random, numbers, count) {
+    for knot in common_knots.clone().unwrap_or_else(|| knots(random, numbers, count)) {
         let outer: Vec<f64> = std::iter::once(knot).chain(outer.iter().copied()).collect();
-        rows(random, numbers, axes - 1, counts, &outer, cells);
+        rows(random, numbers, inside, counts, &outer, cells);
     }
 }
 
@@ -72,7 +80,11 @@ struct Sample {
 
 fn sample(random: &mut Random, numbers: Numbers, counts: &[usize]) -> Sample {
     let mut cells = Vec::new();
-    rows(random, numbers, counts.len(), counts, &[], &mut cells);
+    let common: Vec<Option<Vec<f64>>> = counts
+        .iter()
+        .map(|&count| (counts.len() > 1 && random.below(2) == 0).then(|| knots(random, numbers, count)))
+        .collect();
+    rows(random, numbers, &common, counts, &[], &mut cells);
     let width = counts.len() + 1;
     let tail = [Tail::Constant, Tail::Zero][random.below(2)];
     let table = PiecewiseTable::from_rows(&cells, width, tail).expect("the rows ascend");
@@ -194,7 +206,7 @@ fn rows_of_any_count_and_columns_that_do_not_matter() {
     let cells = [[1.0, 0.0, 5.0], [2.0, 1.0, 5.0], [4.0, 3.0, 5.0]];
     let table = PiecewiseTable::from_rows(cells.as_flattened(), 3, Tail::Zero).unwrap();
     let kernel = TableKernel::new(&table);
-    for rows in [0, 1, 7, 8, 9, 255, 256, 257, 1000] {
+    for rows in [0, 1, 7, 8, 9, 127, 128, 129, 255, 256, 257, 1000] {
         let column: Vec<f64> = (0..rows).map(|row| f64::from(row) * 0.01).collect();
         let mut values = vec![f64::NAN; column.len()];
         for set in InstructionSet::available() {

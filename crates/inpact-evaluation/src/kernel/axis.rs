@@ -3,11 +3,12 @@
 use std::ops::Range;
 
 use super::Search;
+use super::lanes::Lanes;
 use super::search::{BISECTION, BITS, Breaks, GroupSearch, LINEAR};
 use crate::table::{Level, Sides};
 
-/// The block size in rows.
-pub(super) const BLOCK: usize = 256;
+/// The block size in rows: small enough that the intermediate results of a block and the table fit in the L1 cache together.
+pub(super) const BLOCK: usize = 128;
 
 /// One axis: its groups and the search in them.
 #[derive(Clone, Debug)]
@@ -105,21 +106,22 @@ impl Axis {
 
     /// Clamps the coordinates of a block to the groups they are in, one group for all if none are given, and finds the pieces that contain them.
     #[inline(always)]
-    pub(super) fn find(&self, column: &[f64], groups: Option<&[u32; BLOCK]>, found: &mut Found) {
+    pub(super) fn find<L: Lanes>(&self, lanes: L, column: &[f64], groups: Option<&[u32; BLOCK]>, found: &mut Found) {
         match (self.search.kind(), self.search.steps()) {
-            (Search::LinearBuckets, 1) => self.find_by::<LINEAR, 1>(column, groups, found),
-            (Search::LinearBuckets, 2) => self.find_by::<LINEAR, 2>(column, groups, found),
-            (Search::LinearBuckets, _) => self.find_by::<LINEAR, 4>(column, groups, found),
-            (Search::BitBuckets, 1) => self.find_by::<BITS, 1>(column, groups, found),
-            (Search::BitBuckets, 2) => self.find_by::<BITS, 2>(column, groups, found),
-            (Search::BitBuckets, _) => self.find_by::<BITS, 4>(column, groups, found),
-            _ => self.find_by::<BISECTION, 0>(column, groups, found),
+            (Search::LinearBuckets, 1) => self.find_by::<LINEAR, 1, L>(lanes, column, groups, found),
+            (Search::LinearBuckets, 2) => self.find_by::<LINEAR, 2, L>(lanes, column, groups, found),
+            (Search::LinearBuckets, _) => self.find_by::<LINEAR, 4, L>(lanes, column, groups, found),
+            (Search::BitBuckets, 1) => self.find_by::<BITS, 1, L>(lanes, column, groups, found),
+            (Search::BitBuckets, 2) => self.find_by::<BITS, 2, L>(lanes, column, groups, found),
+            (Search::BitBuckets, _) => self.find_by::<BITS, 4, L>(lanes, column, groups, found),
+            _ => self.find_by::<BISECTION, 0, L>(lanes, column, groups, found),
         }
     }
 
     #[inline(always)]
-    fn find_by<const KIND: u8, const STEPS: usize>(
+    fn find_by<const KIND: u8, const STEPS: usize, L: Lanes>(
         &self,
+        lanes: L,
         column: &[f64],
         groups: Option<&[u32; BLOCK]>,
         found: &mut Found,
@@ -129,11 +131,11 @@ impl Axis {
             for ((clamped, &x), &group) in clamped.iter_mut().zip(column).zip(groups) {
                 *clamped = self.ranges[group as usize].clamp(x);
             }
-            self.search.find::<KIND, STEPS>(clamped, |row| self.search.group(groups[row] as usize), pieces);
+            self.search.find::<KIND, STEPS, L>(lanes, clamped, |row| self.search.group(groups[row] as usize), pieces);
         } else {
             // One group for all: its data stay in registers.
             let range = self.ranges[0];
-            self.search.find_in_one::<KIND, STEPS>(column, |x| range.clamp(x), clamped, pieces);
+            self.search.find_in_one::<KIND, STEPS, L>(lanes, column, |x| range.clamp(x), clamped, pieces);
         }
     }
 

@@ -73,7 +73,7 @@ impl super::instruction_set::Operation for Chunk<'_, '_> {
     type Output = ();
 
     #[inline(always)]
-    fn call<L: super::instruction_set::Lanes>(self, _: L) {
+    fn call<L: super::Lanes>(self, _: L) {
         let Self { generation, conductance, inputs, first, outputs } = self;
         let count = conductance.len();
         let rows = first..first + count;

@@ -2,14 +2,10 @@
 
 use std::fmt;
 
-use super::pieces::Piece;
+use super::lanes::{Lanes, Plain};
 
 #[cfg(target_arch = "x86_64")]
-use pulp::bytemuck::cast;
-#[cfg(target_arch = "x86_64")]
 use pulp::x86::{V3, V4};
-#[cfg(target_arch = "x86_64")]
-use std::arch::x86_64::{__m256d, _CMP_EQ_OQ};
 
 /// A set of vector instructions. The results of a kernel are the same with each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -77,66 +73,6 @@ pub(crate) trait Operation {
 
     /// Runs it; all functions that it calls must be inlined.
     fn call<L: Lanes>(self, lanes: L) -> Self::Output;
-}
-
-/// Explicit vector operations of an instruction set, in addition to auto-vectorised loops.
-pub(crate) trait Lanes: Copy {
-    /// The values at `x` on the pieces of `places`, row by row: [`Piece::value`].
-    fn interpolate(self, pieces: &[Piece], x: &[f64], places: &[u32], values: &mut [f64]);
-}
-
-/// No explicit vector instructions.
-#[derive(Clone, Copy)]
-struct Plain;
-
-impl Lanes for Plain {
-    #[inline(always)]
-    fn interpolate(self, pieces: &[Piece], x: &[f64], places: &[u32], values: &mut [f64]) {
-        for ((&x, &place), value) in x.iter().zip(places).zip(values) {
-            *value = pieces[place as usize].value(x);
-        }
-    }
-}
-
-/// Four pieces are loaded as vectors and transposed: a gather would take one load per number.
-#[cfg(target_arch = "x86_64")]
-impl Lanes for V3 {
-    #[inline(always)]
-    fn interpolate(self, pieces: &[Piece], x: &[f64], places: &[u32], values: &mut [f64]) {
-        let rows = values.len();
-        let (x, places) = (&x[..rows], &places[..rows]);
-        let (fours, rest) = values.as_chunks_mut::<4>();
-        let done = 4 * fours.len();
-        for ((value, x), place) in fours.iter_mut().zip(x.as_chunks::<4>().0).zip(places.as_chunks::<4>().0) {
-            *value = cast(interpolate_four(self, place.map(|place| cast(pieces[place as usize].0)), cast(*x)));
-        }
-        Plain.interpolate(pieces, &x[done..], &places[done..], rest);
-    }
-}
-
-/// [`Piece::value`] on four pieces, operation by operation.
-#[cfg(target_arch = "x86_64")]
-#[inline(always)]
-fn interpolate_four(simd: V3, [a, b, c, d]: [__m256d; 4], x: __m256d) -> __m256d {
-    let avx = simd.avx;
-    let (near_high, base_low) = (avx._mm256_unpacklo_pd(a, b), avx._mm256_unpackhi_pd(a, b));
-    let (near_high_2, base_low_2) = (avx._mm256_unpacklo_pd(c, d), avx._mm256_unpackhi_pd(c, d));
-    let near = avx._mm256_permute2f128_pd::<0x20>(near_high, near_high_2);
-    let base = avx._mm256_permute2f128_pd::<0x20>(base_low, base_low_2);
-    let high = avx._mm256_permute2f128_pd::<0x31>(near_high, near_high_2);
-    let low = avx._mm256_permute2f128_pd::<0x31>(base_low, base_low_2);
-    // `two_difference(x, near)`
-    let negated_near = avx._mm256_xor_pd(near, cast([-0.0_f64; 4]));
-    let offset = avx._mm256_add_pd(x, negated_near);
-    let near_part = avx._mm256_sub_pd(offset, x);
-    let x_part = avx._mm256_sub_pd(offset, near_part);
-    let x_error = avx._mm256_sub_pd(x, x_part);
-    let near_error = avx._mm256_sub_pd(negated_near, near_part);
-    let offset_error = avx._mm256_add_pd(x_error, near_error);
-    let value = simd.fma._mm256_fmadd_pd(offset, high, base);
-    let correction = avx._mm256_add_pd(avx._mm256_mul_pd(offset, low), avx._mm256_mul_pd(offset_error, high));
-    let value = avx._mm256_add_pd(value, correction);
-    avx._mm256_blendv_pd(value, base, avx._mm256_cmp_pd::<_CMP_EQ_OQ>(x, near))
 }
 
 #[cfg(target_arch = "x86_64")]

@@ -5,15 +5,14 @@
 //! Coordinates are clamped to the range of their group first, which gives the value at its end.
 //!
 //! An axis whose groups all have the same abscissae is searched once per block, however many groups a row's value needs; any other once for each of these.
+//! Each step is a separate loop over the block, so that the latencies of one row overlap with those of others; the columns of the next block are prefetched.
 
-use std::hint::select_unpredictable;
 use std::ops::Range;
 
 use super::axis::{Axis, BLOCK, Found, Noted};
-use super::instruction_set::Lanes;
-use super::pieces::{Piece, half_segments};
+use super::lanes::Lanes;
+use super::pieces::{Piece, between_or_nan, halves, pieces};
 use super::{InstructionSet, Search, column_of};
-use crate::numbers::{is_ordinary, two_difference};
 use crate::table::{Level, PiecewiseTable, Sides};
 
 /// A table whose value depends on at least one axis.
@@ -23,17 +22,21 @@ pub(super) struct NestedKernel {
     axes: Vec<Axis>,
     /// Half segments of all groups of the innermost axis.
     pieces: Vec<Piece>,
-    /// Segments of all groups of each outer axis, innermost first.
-    segments: Vec<Vec<Segment>>,
+    /// Half segments of all groups of each outer axis, innermost first.
+    spans: Vec<Vec<Piece>>,
 }
 
-/// A segment of an outer axis, and the groups of the next axis inside at its ends.
-#[derive(Clone, Copy, Debug)]
-struct Segment {
-    x0: f64,
-    x1: f64,
-    lower: u32,
-    upper: u32,
+/// Intermediate results of a block along one axis.
+#[derive(Clone, Debug)]
+struct Scratch {
+    /// The positions of the rows in the groups that are evaluated.
+    own: Found,
+    /// The numbers of the half segments that contain them.
+    span: [[f64; BLOCK]; 4],
+    /// The groups of the next axis inside at both ends.
+    groups: [[u32; BLOCK]; 2],
+    /// The values at the far ends.
+    far_values: [f64; BLOCK],
 }
 
 impl NestedKernel {
@@ -47,23 +50,22 @@ impl NestedKernel {
         };
         let innermost = &levels[0];
         let beyond = innermost.drops.then_some(0.0);
-        let mut pieces = Vec::new();
+        let mut all_pieces = Vec::new();
         let mut breaks = Vec::new();
         for rows in groups(0) {
             let knots = &innermost.knots[rows.clone()];
-            let (of_group, of_breaks) =
-                half_segments(knots, &table.values()[rows.clone()], &table.slopes()[rows], beyond);
-            pieces.extend(of_group);
+            let (of_group, of_breaks) = pieces(knots, &table.values()[rows.clone()], &table.slopes()[rows], beyond);
+            all_pieces.extend(of_group);
             breaks.push(of_breaks);
         }
         let mut axes = vec![Axis::new(innermost, &groups(0), breaks, beyond.is_some())];
-        let mut segments = Vec::new();
+        let mut spans = Vec::new();
         for (level, of_level) in levels.iter().enumerate().skip(1) {
             let (axis, of_axis) = outer_axis(of_level, &groups(level));
             axes.push(axis);
-            segments.push(of_axis);
+            spans.push(of_axis);
         }
-        Self { axes, pieces, segments }
+        Self { axes, pieces: all_pieces, spans }
     }
 
     pub(super) fn search(&self) -> Search {
@@ -84,27 +86,34 @@ impl NestedKernel {
         for axis in &self.axes {
             let _: &[f64] = column_of(columns, axis.column, rows);
         }
-        let mut shared = vec![Found::default(); if self.axes.len() == 1 { 0 } else { self.axes.len() }];
+        let axis_count = if self.axes.len() == 1 { 0 } else { self.axes.len() };
+        let mut shared = vec![Found::default(); axis_count];
+        let mut scratch = vec![Scratch::default(); axis_count];
         let mut own = Found::default();
         let mut has_nan = false;
         let mut first = 0;
         while first < rows {
             let values = &mut values[first..rows.min(first + BLOCK)];
             let part = first..first + values.len();
+            let next = part.end..rows.min(part.end + BLOCK);
             let mut noted = sides.as_deref_mut().map(|sides| Noted::new(&mut sides[part.clone()]));
             if let [axis] = &self.axes[..] {
                 let column = &columns[axis.column][part];
-                axis.find(column, None, &mut own);
-                lanes.interpolate(&self.pieces, &own.clamped, &own.pieces, values);
+                axis.find(lanes, column, None, &mut own);
+                lanes.prefetch(&columns[axis.column][next]);
+                lanes.interpolate(&self.pieces, &own.clamped[..values.len()], &own.pieces[..values.len()], values);
                 if let Some(noted) = &mut noted {
                     axis.note(None, column, noted);
                 }
             } else {
                 for (axis, found) in self.axes.iter().zip(&mut shared).filter(|(axis, _)| axis.is_shared()) {
-                    axis.find(&columns[axis.column][part.clone()], None, found);
+                    axis.find(lanes, &columns[axis.column][part.clone()], None, found);
                 }
-                let block = Block { kernel: self, set, height: self.axes.len() - 1, columns, first, shared: &shared };
-                block.values(lanes, &[0; BLOCK], values, noted.as_mut());
+                for axis in &self.axes {
+                    lanes.prefetch(&columns[axis.column][next.clone()]);
+                }
+                let block = Block { kernel: self, set, columns, first, shared: &shared };
+                block.values(lanes, &[0; BLOCK], &mut scratch, values, noted.as_mut());
             }
             has_nan |= values.iter().fold(false, |any, value| any | value.is_nan());
             first += BLOCK;
@@ -118,8 +127,6 @@ impl NestedKernel {
 struct Block<'a> {
     kernel: &'a NestedKernel,
     set: InstructionSet,
-    /// The current axis.
-    height: usize,
     columns: &'a [&'a [f64]],
     /// The block's first row.
     first: usize,
@@ -128,57 +135,101 @@ struct Block<'a> {
 }
 
 impl Block<'_> {
-    /// The values of a block of rows, each in a group of its own of the axis `height`.
+    /// The values of a block of rows, each in a group of its own of the outermost axis that there is `scratch` for.
     #[inline(always)]
-    fn values<L: Lanes>(self, lanes: L, groups: &[u32; BLOCK], values: &mut [f64], mut noted: Option<&mut Noted<'_>>) {
-        let Self { kernel, set, height, columns, first, shared } = self;
+    fn values<L: Lanes>(
+        self,
+        lanes: L,
+        groups: &[u32; BLOCK],
+        scratch: &mut [Scratch],
+        values: &mut [f64],
+        mut noted: Option<&mut Noted<'_>>,
+    ) {
+        let Self { kernel, set, columns, first, shared } = self;
         let rows = values.len();
+        let Some((scratch, inside)) = scratch.split_last_mut() else { return };
+        let Scratch { own, span, groups: [near_groups, far_groups], far_values } = scratch;
+        let height = inside.len();
         let axis = &kernel.axes[height];
         let column = &columns[axis.column][first..first + rows];
-        let mut own = Found::default();
         let clamped = if axis.is_shared() {
             axis.places(groups, &shared[height].pieces, &mut own.pieces);
             &shared[height].clamped
         } else {
-            axis.find(column, Some(groups), &mut own);
+            axis.find(lanes, column, Some(groups), own);
             &own.clamped
         };
         let takes_part = noted.as_deref_mut().map(|noted| {
             axis.note(Some(groups), column, noted);
             noted.takes_part
         });
-        let Some(inside) = height.checked_sub(1) else {
-            lanes.interpolate(&kernel.pieces, clamped, &own.pieces, values);
+        if height == 0 {
+            lanes.interpolate(&kernel.pieces, &clamped[..rows], &own.pieces[..rows], values);
             return;
-        };
-        let segments = &kernel.segments[inside][..];
-        let mut ends = [[0.0; BLOCK]; 2];
-        let mut inner = [[0; BLOCK]; 2];
-        for row in 0..rows {
-            let segment = &segments[own.pieces[row] as usize];
-            (ends[0][row], ends[1][row]) = (segment.x0, segment.x1);
-            (inner[0][row], inner[1][row]) = (segment.lower, segment.upper);
         }
-        let mut upper_values = [0.0; BLOCK];
-        let upper_values = &mut upper_values[..rows];
-        for (side, values) in [&mut *values, &mut *upper_values].into_iter().enumerate() {
+        lanes.fetch(&kernel.spans[height - 1], &own.pieces[..rows], span);
+        let [near, width, width_error, children] = span;
+        for (children, (near, far)) in children.iter().zip(near_groups.iter_mut().zip(&mut *far_groups)) {
+            [*near, *far] = Piece::groups(*children);
+        }
+        let far_values = &mut far_values[..rows];
+        let groups = [&*near_groups, &*far_groups];
+        if height == 1 && kernel.axes[0].is_shared() {
+            self.values_of_both(lanes, groups, &mut inside[0].groups, [&mut *values, &mut *far_values], noted);
+        } else {
+            let [near_groups, far_groups] = groups;
+            set.run(InnerValues {
+                block: self,
+                groups: near_groups,
+                scratch: &mut *inside,
+                values: &mut *values,
+                noted: noted.as_deref_mut(),
+            });
             if let (Some(noted), Some(takes_part)) = (noted.as_deref_mut(), &takes_part) {
                 for row in 0..rows {
-                    let other_end = ends[1 - side][row];
-                    // The group at an end is alone there; a segment without width is a group of one knot.
-                    let is_other_alone = clamped[row] == other_end && (side == 1 || ends[0][row] < other_end);
-                    noted.takes_part[row] = takes_part[row] && !is_other_alone;
+                    // The group at an end is alone there.
+                    noted.takes_part[row] = takes_part[row] && clamped[row] != near[row];
                 }
             }
-            let block = Self { height: inside, ..self };
-            set.run(InnerValues { block, groups: &inner[side], values, noted: noted.as_deref_mut() });
+            set.run(InnerValues {
+                block: self,
+                groups: far_groups,
+                scratch: inside,
+                values: &mut *far_values,
+                noted: noted.as_deref_mut(),
+            });
+            if let (Some(noted), Some(takes_part)) = (noted, takes_part) {
+                noted.takes_part = takes_part;
+            }
         }
-        if let (Some(noted), Some(takes_part)) = (noted, takes_part) {
-            noted.takes_part = takes_part;
+        let spans = near.iter().zip(width.iter().zip(&*width_error));
+        for (((value, &far), &x), (&near, (&width, &width_error))) in
+            values.iter_mut().zip(&*far_values).zip(clamped).zip(spans)
+        {
+            *value = between_or_nan(x, near, (width, width_error), *value, far);
         }
-        let abscissae = clamped.iter().zip(ends[0].iter().zip(&ends[1]));
-        for ((value, &upper), (&x, (&x0, &x1))) in values.iter_mut().zip(&*upper_values).zip(abscissae) {
-            *value = between_or_nan(x, (x0, *value), (x1, upper));
+    }
+
+    /// The values in two groups per row of an innermost axis whose groups share their abscissae.
+    #[inline(always)]
+    fn values_of_both<L: Lanes>(
+        self,
+        lanes: L,
+        groups: [&[u32; BLOCK]; 2],
+        places: &mut [[u32; BLOCK]; 2],
+        values: [&mut [f64]; 2],
+        noted: Option<&mut Noted<'_>>,
+    ) {
+        let (axis, found) = (&self.kernel.axes[0], &self.shared[0]);
+        let rows = values[0].len();
+        for (groups, places) in groups.into_iter().zip(&mut *places) {
+            axis.places(groups, &found.pieces, places);
+        }
+        let [near, far] = places;
+        lanes.interpolate_both(&self.kernel.pieces, &found.clamped[..rows], [&near[..rows], &far[..rows]], values);
+        if let Some(noted) = noted {
+            // The groups have one range, and one of them takes part.
+            axis.note(None, &self.columns[axis.column][self.first..self.first + rows], noted);
         }
     }
 }
@@ -187,6 +238,7 @@ impl Block<'_> {
 struct InnerValues<'a, 'b> {
     block: Block<'a>,
     groups: &'a [u32; BLOCK],
+    scratch: &'a mut [Scratch],
     values: &'a mut [f64],
     noted: Option<&'a mut Noted<'b>>,
 }
@@ -196,60 +248,30 @@ impl super::instruction_set::Operation for InnerValues<'_, '_> {
 
     #[inline(always)]
     fn call<L: Lanes>(self, lanes: L) {
-        self.block.values(lanes, self.groups, self.values, self.noted);
+        self.block.values(lanes, self.groups, self.scratch, self.values, self.noted);
+    }
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self { own: Found::default(), span: [[0.0; BLOCK]; 4], groups: [[0; BLOCK]; 2], far_values: [0.0; BLOCK] }
     }
 }
 
 /// An axis with other axes inside it.
-fn outer_axis(level: &Level, groups: &[Range<usize>]) -> (Axis, Vec<Segment>) {
-    let mut segments = Vec::new();
+fn outer_axis(level: &Level, groups: &[Range<usize>]) -> (Axis, Vec<Piece>) {
+    let mut spans = Vec::new();
     let mut breaks = Vec::new();
     // Knot j owns group j of the next level inside.
     let child = |knot: usize| u32::try_from(knot).expect("a table has fewer than 2^32 rows");
     for group in groups {
         let knots = &level.knots[group.clone()];
-        let last = knots.len() - 1;
-        breaks.push(knots[last.min(1)..last].to_vec());
-        let segment = |left: usize, right: usize| Segment {
-            x0: knots[left],
-            x1: knots[right],
-            lower: child(group.start + left),
-            upper: child(group.start + right),
-        };
-        if last == 0 {
-            segments.push(segment(0, 0));
-        }
-        segments.extend((0..last).map(|left| segment(left, left + 1)));
+        let (of_group, of_breaks) = halves(knots);
+        spans.extend(of_group.iter().map(|half| {
+            let children = [half.near, half.far].map(|knot| child(group.start + knot));
+            Piece::between_groups(knots[half.near], knots[half.far], children)
+        }));
+        breaks.push(of_breaks);
     }
-    (Axis::new(level, groups, breaks, false), segments)
-}
-
-/// [`crate::numbers::between`], operation by operation and without branches; NaN where a difference is extreme.
-#[inline(always)]
-fn between_or_nan(x: f64, (x0, y0): (f64, f64), (x1, y1): (f64, f64)) -> f64 {
-    let from_left = x - x0 <= x1 - x;
-    let (near, far) = (select_unpredictable(from_left, x0, x1), select_unpredictable(from_left, x1, x0));
-    let (base, other) = (select_unpredictable(from_left, y0, y1), select_unpredictable(from_left, y1, y0));
-    let (offset, offset_error) = two_difference(x, near);
-    let (width, width_error) = two_difference(far, near);
-    let (rise, rise_error) = two_difference(other, base);
-    let part = offset / width;
-    let remainder = (-part).mul_add(width, offset) + (offset_error - part * width_error);
-    let part_error = remainder / width;
-    let step = part * rise;
-    let step_error = part.mul_add(rise, -step);
-    let step_error = step_error + (part * rise_error + part_error * rise);
-    let value = base + step;
-    let step_part = value - base;
-    let base_part = value - step_part;
-    let value_error = (base - base_part) + (step - step_part);
-    let value = value + (value_error + step_error);
-    let (least, greatest) = if base < other { (base, other) } else { (other, base) };
-    let value = if value < least { least } else { value };
-    let value = if value > greatest { greatest } else { value };
-    let ordinary = is_ordinary(offset) & is_ordinary(width) & is_ordinary(rise);
-    let value = select_unpredictable(ordinary, value, f64::NAN);
-    let value = select_unpredictable(x == near, base, value);
-    let value = select_unpredictable(base == other, base, value);
-    select_unpredictable(x.is_nan(), f64::NAN, value)
+    (Axis::new(level, groups, breaks, false), spans)
 }

@@ -5,7 +5,8 @@
 #![expect(clippy::needless_bitwise_bool, reason = "a branch a number would keep a loop from its vectors")]
 
 use super::InstructionSet;
-use super::instruction_set::{Lanes, Operation};
+use super::instruction_set::Operation;
+use super::lanes::Lanes;
 use crate::numbers::is_moderate;
 
 /// The number of lanes, each with its own minimum and maximum.

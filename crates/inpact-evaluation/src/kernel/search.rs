@@ -4,6 +4,7 @@
 //! A bucket stores the piece at its left end; as it holds few breaks (one, if there is room), as many comparisons give the rest.
 //! The keys of the breaks are computed by the same expression as those of the queries, so that its rounding cannot matter: it is monotone.
 
+use super::lanes::Lanes;
 use super::pieces::ordered;
 
 /// The method by which a kernel finds the segments of rows in a table.
@@ -29,10 +30,28 @@ pub(super) struct GroupSearch {
     /// The maximum number of breaks in a bucket.
     steps: usize,
     groups: Vec<Group>,
-    /// For each bucket the piece at its left end.
-    buckets: Vec<u32>,
+    buckets: Vec<Bucket>,
     /// For each piece where it ends, NaN for the last of a group.
     ends: Vec<f64>,
+}
+
+/// The piece at the left end of a bucket: where it ends and its index, side by side so that one load fetches both.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
+pub(crate) struct Bucket(pub(super) [f64; 2]);
+
+impl Bucket {
+    fn new(end: f64, piece: u32) -> Self {
+        Self([end, f64::from_bits(u64::from(piece))])
+    }
+
+    /// The piece at `x`, if the bucket contains at most one break.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the low bits are the number")]
+    pub(super) fn piece_at(self, x: f64) -> u32 {
+        let [end, piece] = self.0;
+        piece.to_bits() as u32 + u32::from(x >= end)
+    }
 }
 
 /// One group: the starts of its pieces and buckets, and the parameters of its keys.
@@ -93,8 +112,9 @@ impl GroupSearch {
     ///
     /// `group_of` gives the group of a row. The vectorisable part is a separate loop, before the loads that depend on it.
     #[inline(always)]
-    pub(super) fn find<const KIND: u8, const STEPS: usize>(
+    pub(super) fn find<const KIND: u8, const STEPS: usize, L: Lanes>(
         &self,
+        lanes: L,
         x: &[f64],
         group_of: impl Fn(usize) -> Group,
         pieces: &mut [u32],
@@ -109,14 +129,15 @@ impl GroupSearch {
             let group = group_of(row);
             *bucket = group.first_bucket + group.key::<KIND>(x);
         }
-        self.pieces_of_buckets::<STEPS>(x, pieces);
+        self.pieces_of_buckets::<STEPS, L>(lanes, x, pieces);
     }
 
     /// [`Self::find`] where there is one group, with the clamping of `x` in the same loop as the keys.
     /// The binary search advances all rows step by step, so that they are independent.
     #[inline(always)]
-    pub(super) fn find_in_one<const KIND: u8, const STEPS: usize>(
+    pub(super) fn find_in_one<const KIND: u8, const STEPS: usize, L: Lanes>(
         &self,
+        lanes: L,
         x: &[f64],
         clamp: impl Fn(f64) -> f64,
         clamped: &mut [f64],
@@ -128,7 +149,7 @@ impl GroupSearch {
             *bucket = if KIND == BISECTION { 0 } else { group.key::<KIND>(*clamped) };
         }
         if KIND != BISECTION {
-            return self.pieces_of_buckets::<STEPS>(clamped, pieces);
+            return self.pieces_of_buckets::<STEPS, L>(lanes, clamped, pieces);
         }
         let mut count = group.piece_count;
         while count > 1 {
@@ -143,14 +164,15 @@ impl GroupSearch {
 
     /// Replaces each row's bucket by the piece that contains its `x`.
     #[inline(always)]
-    fn pieces_of_buckets<const STEPS: usize>(&self, x: &[f64], pieces: &mut [u32]) {
-        let (buckets, ends) = (&self.buckets[..], &self.ends[..]);
-        for (&x, piece) in x.iter().zip(pieces) {
-            let mut found = buckets[*piece as usize];
-            for _ in 0..STEPS {
-                found += u32::from(x >= ends[found as usize]);
+    fn pieces_of_buckets<const STEPS: usize, L: Lanes>(&self, lanes: L, x: &[f64], pieces: &mut [u32]) {
+        lanes.pieces_of_buckets(&self.buckets, x, pieces);
+        let ends = &self.ends[..];
+        if STEPS > 1 {
+            for (&x, piece) in x.iter().zip(pieces) {
+                for _ in 1..STEPS {
+                    *piece += u32::from(x >= ends[*piece as usize]);
+                }
             }
-            *piece = found;
         }
     }
 
@@ -187,7 +209,8 @@ impl GroupSearch {
                 while breaks.at.get(passed as usize).is_some_and(|&x| group.key_of(kind, x) < key) {
                     passed += 1;
                 }
-                search.buckets.push(group.first_piece + passed);
+                let piece = group.first_piece + passed;
+                search.buckets.push(Bucket::new(search.ends[piece as usize], piece));
             }
         }
         Some(search)

@@ -39,6 +39,10 @@ pub(super) const SAFE_TO_ADD: f64 = f64::MAX / 4.0;
 /// The exponent of the smallest normal f64.
 pub(super) const LEAST_NORMAL: i32 = -1022;
 
+/// 2⁻²⁵⁰ and 2²⁵¹, see [`is_ordinary`].
+pub(crate) const LEAST_ORDINARY: f64 = f64::from_bits((1023 - 250) << 52);
+pub(crate) const ORDINARY_LIMIT: f64 = f64::from_bits((1023 + 251) << 52);
+
 /// Whether the magnitude of `value` lies between 2⁻²⁵⁰ and 2²⁵¹, so that a few products and quotients of such numbers neither over- nor underflow.
 /// False for zero, infinities and NaN.
 #[inline]
