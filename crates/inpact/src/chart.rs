@@ -16,7 +16,7 @@ pub(crate) mod terminal;
 
 use axis::Axis;
 
-/// Points over two logarithmic axes, some of them joined by a front, with lines across at places of note.
+/// Points over two logarithmic axes, some of them joined by a front, with annotated reference lines.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Chart {
     pub(crate) title: String,
@@ -40,7 +40,7 @@ pub(crate) struct Point {
     /// The upper end of its bar, where there is one.
     pub(crate) bar_to: Option<f64>,
     pub(crate) label: String,
-    /// Whether it is joined to the others of which that is true.
+    /// Whether it is on the front.
     pub(crate) on_front: bool,
 }
 
@@ -65,7 +65,7 @@ const SIZE: f64 = 13.0;
 /// The meaning of the joined points.
 const FRONT: &str = "Pareto front";
 
-/// About how wide a letter is, as a part of the size of its font.
+/// The approximate width of a letter, relative to the font size.
 const LETTER: f64 = 0.58;
 
 impl Chart {
@@ -76,7 +76,7 @@ impl Chart {
         (Axis::around(xs, LEFT, RIGHT), Axis::around(ys, BOTTOM, TOP))
     }
 
-    /// The drawing as a document of its own.
+    /// The drawing as a standalone document.
     pub(crate) fn svg(&self) -> String {
         let (x_axis, y_axis) = self.axes();
         let mut drawing = svg::Drawing::new(WIDTH, HEIGHT, &self.title);
@@ -143,7 +143,7 @@ impl Chart {
         }
     }
 
-    /// The front: from one point of it to the next nothing is better than the first, so that it goes in steps.
+    /// The front as a step line: between two of its points the first is the best.
     fn draw_front(&self, drawing: &mut svg::Drawing, x_axis: &Axis, y_axis: &Axis, taken: &mut Vec<Area>) {
         let mut front: Vec<&Point> = self.points.iter().filter(|point| point.on_front).collect();
         front.sort_by(|a, b| a.x.total_cmp(&b.x));
@@ -221,7 +221,7 @@ fn is_free(area: &Area, taken: &[Area]) -> bool {
     area.is_inside_the_axes() && !taken.iter().any(|other| area.meets(other))
 }
 
-/// The place of a label: beside its point, on the side and at the height at which it meets nothing else.
+/// The position of a label: beside its point, without overlap.
 fn label_place((x, y): (f64, f64), label: &str, taken: &mut Vec<Area>) -> ((f64, f64), &'static str) {
     let width = width(label, SIZE);
     let candidates = [0.0, -16.0, 16.0, -24.0, 24.0, -32.0, 32.0, -40.0, 40.0, -48.0, 48.0, -64.0, 64.0, -80.0, 80.0]
@@ -240,7 +240,7 @@ fn label_place((x, y): (f64, f64), label: &str, taken: &mut Vec<Area>) -> ((f64,
     (at, anchor)
 }
 
-/// About how wide a text is.
+/// The approximate width of a text.
 fn width(text: &str, size: f64) -> f64 {
     text.chars().count() as f64 * LETTER * size
 }

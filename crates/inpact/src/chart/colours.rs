@@ -19,7 +19,7 @@ pub(crate) fn of_curve(index: usize, count: usize) -> String {
     of_part(index as f64 / (count - 1) as f64)
 }
 
-/// The colour at a part of the ramp.
+/// The colour at a fraction of the ramp.
 pub(crate) fn of_part(part: f64) -> String {
     let place = part.clamp(0.0, 1.0) * (RAMP.len() - 1) as f64;
     let index = super::whole(place.floor()).min(RAMP.len() - 2);
@@ -32,7 +32,7 @@ pub(crate) fn of_part(part: f64) -> String {
 mod tests {
     use super::*;
 
-    /// Brightness to the eye, of 255.
+    /// Perceived brightness, of 255.
     fn luma(colour: &str) -> f64 {
         let part = |from: usize| f64::from(u8::from_str_radix(&colour[from..from + 2], 16).unwrap());
         0.299 * part(1) + 0.587 * part(3) + 0.114 * part(5)

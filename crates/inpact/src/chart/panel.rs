@@ -30,10 +30,10 @@ const RIGHT: f64 = WIDTH - 128.0;
 const TOP: f64 = 66.0;
 const BOTTOM: f64 = HEIGHT - 84.0;
 
-/// The width of a side without rows, as a part of the whole.
+/// The width of a side without rows, relative to the whole.
 const STUB: f64 = 0.16;
 
-/// The most curves that have a line of the legend each.
+/// The maximum number of curves with a legend entry each.
 const MOST_LEGEND: usize = 10;
 
 /// The number of bars of a histogram along a whole axis.
@@ -45,7 +45,7 @@ const BAR: f64 = 26.0;
 /// A panel with its axes in place.
 pub(super) struct Plot<'a> {
     panel: &'a Panel,
-    /// Its left upper corner.
+    /// Its upper left corner.
     corner: (f64, f64),
     y: Scale,
     halves: [HalfPlot; 2],
@@ -61,7 +61,7 @@ struct HalfPlot {
 }
 
 impl<'a> Plot<'a> {
-    /// A panel with its left upper corner at a place; `values` are those that its axis shall hold.
+    /// A panel with its upper left corner at a position; `values` are those that its axis must include.
     pub(super) fn new(panel: &'a Panel, corner: (f64, f64), scales: Scales, values: &[f64]) -> Self {
         let middle = contact(panel);
         let half = |side: Side| {
@@ -146,7 +146,7 @@ impl<'a> Plot<'a> {
                 let x = self.across(side, tick) - self.corner.0;
                 let is_at_contact = (x - half.from).abs() < 1.0;
                 drawing.line(self.at(x, BOTTOM), self.at(x, BOTTOM + 5.0), "tick-line");
-                // At contact both sides have the same zero: one label is enough, and that of the right side stays.
+                // At contact both sides share zero: only the label of the right side is kept.
                 let is_crowded = (x - before).abs() < 7.5 * label.chars().count() as f64 + 6.0;
                 if is_crowded || (is_at_contact && side == Side::Open && self.panel.closed.has_scale) {
                     continue;
@@ -232,7 +232,7 @@ impl<'a> Plot<'a> {
             };
             let title = format!("{} {}: line {}: {}", mark.severity, mark.code, mark.line, mark.message);
             drawing.ring((x, y), look, &visible_line(&title));
-            // Several findings at one row are one above another.
+            // Several findings at one row are stacked.
             let mut label = (x, y - 14.0);
             while taken.iter().any(|other| (other.0 - label.0).abs() < 36.0 && (other.1 - label.1).abs() < 13.0) {
                 label.1 -= 13.0;
@@ -268,7 +268,7 @@ impl<'a> Plot<'a> {
             }
             return;
         }
-        // A scale with a stripe a curve, the largest on top.
+        // A colour scale with one stripe per curve, the largest on top.
         let height = 180.0 / curves.len() as f64;
         for index in 0..curves.len() {
             let top = y + 180.0 - (index + 1) as f64 * height;
@@ -320,7 +320,7 @@ fn least_above_zero(panel: &Panel, side: Side) -> Option<f64> {
     (0.0 < above && panel.half(side).has_scale).then_some(above)
 }
 
-/// A curve in pieces that the table says and pieces that continue it; each begins where the one before ends.
+/// A curve split into pieces within the table and continuations; each begins at the end of the previous one.
 ///
 /// A step up to a continued value is part of the continuation.
 fn pieces(samples: &[Sample]) -> Vec<(&[Sample], Reach)> {
@@ -357,7 +357,7 @@ fn histogram(parts: impl Iterator<Item = f64>, bars: usize) -> Vec<(usize, f64)>
         .collect()
 }
 
-/// A text of so many characters at most, its end replaced by `…`.
+/// A text truncated to a number of characters with `…`.
 pub(crate) fn shortened(text: &str, most: usize) -> String {
     if text.chars().count() <= most {
         return text.to_owned();
@@ -366,7 +366,7 @@ pub(crate) fn shortened(text: &str, most: usize) -> String {
     format!("{}…", kept.trim_end())
 }
 
-/// A text in lines of so many characters at most; a word that is longer is shortened.
+/// A text wrapped to lines of a number of characters; longer words are truncated.
 pub(crate) fn wrapped(text: &str, most: usize) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

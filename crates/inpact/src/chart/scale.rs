@@ -5,9 +5,9 @@ use crate::curves::{number, range};
 /// Scales of an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Scale {
-    /// Evenly.
+    /// Linear.
     Linear { least: f64, greatest: f64 },
-    /// By their logarithms, each sign by itself and zero in a stretch between them.
+    /// Logarithmic for each sign, with zero in an interval between them.
     Logarithmic {
         /// The smallest and the largest magnitude.
         least: f64,
@@ -35,7 +35,7 @@ pub(crate) enum ScaleKind {
 const ZERO_PART: f64 = 0.08;
 
 impl Scale {
-    /// A scale that holds these numbers, and zero where it is linear.
+    /// A scale for these numbers, including zero where it is linear.
     pub(crate) fn around(numbers: impl Iterator<Item = f64>, kind: ScaleKind) -> Self {
         let numbers: Vec<f64> = numbers.filter(|number| number.is_finite()).collect();
         match kind {
@@ -81,7 +81,7 @@ impl Scale {
         }
     }
 
-    /// The position of a number, as a part of the length of the axis: 0 at its start, 1 at its end.
+    /// The position of a number, as a fraction of the axis: 0 at its start, 1 at its end.
     pub(crate) fn part(self, number: f64) -> f64 {
         match self {
             Self::Linear { least, greatest } => {

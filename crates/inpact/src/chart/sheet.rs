@@ -8,7 +8,7 @@ use super::whole;
 use crate::curves::{Figure, LawKind, Panel, number};
 use inpact_diagnostics::visible::visible_line;
 
-/// The room around panels.
+/// The margin around panels.
 const MARGIN: f64 = 14.0;
 
 /// The height of the title of a sheet.
@@ -116,7 +116,7 @@ fn multiples<'a>(figures: &'a [Figure], of: &'a Panel) -> impl Iterator<Item = &
     panels.filter(|panel| panel.law == of.law && panel.interaction == of.interaction)
 }
 
-/// A row for each law that any deck has; a deck without it leaves its place empty.
+/// A row for each law that any deck has; the cell of a deck without it is empty.
 fn side_by_side(figures: &[Figure]) -> Vec<Vec<Option<&Panel>>> {
     let key = |panel: &Panel| (panel.interaction.to_ascii_uppercase(), panel.law, held_key(panel));
     let mut keys: Vec<(String, LawKind, String)> = Vec::new();

@@ -6,14 +6,14 @@ use super::svg::Drawing;
 use crate::text::counted;
 use inpact_diagnostics::visible::visible_line;
 
-/// Faces of interfaces with a value each, seen along the direction in which they are thinnest.
+/// Faces of interfaces with a value each, seen along the direction of their smallest extent.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Surface {
     /// The output, such as `HFL`.
     pub(crate) output: String,
     /// The time of the state, where it has one.
     pub(crate) time: Option<f64>,
-    /// The two directions that are drawn, to the right and upwards: 0 for x, 1 for y, 2 for z.
+    /// The two axes that are drawn, to the right and upwards: 0 for x, 1 for y, 2 for z.
     pub(crate) directions: [usize; 2],
     /// The corners of each face (L), and the mean of the values at its nodes.
     pub(crate) faces: Vec<(Vec<[f64; 2]>, f64)>,
@@ -28,11 +28,11 @@ const RIGHT: f64 = WIDTH - 150.0;
 const TOP: f64 = 24.0;
 const BOTTOM: f64 = HEIGHT - 60.0;
 
-/// How many stripes the scale of colours has.
+/// The number of stripes of the colour scale.
 const STRIPES: usize = 24;
 
 impl Surface {
-    /// The directions to draw points in: all but the one in which they are thinnest.
+    /// The axes to draw: all except that of the smallest extent.
     pub(crate) fn directions(points: &[[f64; 3]]) -> [usize; 2] {
         let extent = |axis: usize| {
             let values = points.iter().map(|point| point[axis]);

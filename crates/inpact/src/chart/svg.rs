@@ -44,7 +44,7 @@ const PANEL_LOOKS: &[(&str, &str)] = &[
 ];
 
 impl Drawing {
-    /// A light ground of that size, in pixels; `title` is what a screen reader says.
+    /// A light background of that size, in pixels; `title` is the text for screen readers.
     pub(super) fn new(width: f64, height: f64, title: &str) -> Self {
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
@@ -64,7 +64,7 @@ impl Drawing {
         self.add(&format!(r#"<circle cx="{}" cy="{}" r="{radius}" {}/>"#, short(x), short(y), looks(look)));
     }
 
-    /// Straight lines from corner to corner; nothing for fewer than two.
+    /// A polyline; nothing for fewer than two points.
     pub(super) fn path(&mut self, corners: &[(f64, f64)], look: &str) {
         self.polyline(corners, looks(look));
     }
@@ -85,14 +85,14 @@ impl Drawing {
         self.add(&format!(r#"<text transform="{turn}" text-anchor="middle" {}>{text}</text>"#, looks(look)));
     }
 
-    /// Straight lines from corner to corner, with a look of its own.
+    /// A polyline with its own style.
     pub(super) fn polyline(&mut self, corners: &[(f64, f64)], look: &str) {
         if 1 < corners.len() {
             self.add(&format!(r#"<polyline points="{}" {look}/>"#, points(corners)));
         }
     }
 
-    /// A mark of curve `index`: circle, square, triangle, diamond in turn, so that curves are distinguished without colours; `title` is shown when pointed at.
+    /// A mark of curve `index`: circle, square, triangle, diamond in turn, so that curves are distinguished without colours; `title` is shown on hover.
     pub(super) fn mark(&mut self, (x, y): (f64, f64), index: usize, colour: &str, title: &str) {
         let look = format!(r##"fill="{colour}" stroke="#ffffff" stroke-width="0.8""##);
         let polygon = |corners: &[(f64, f64)]| {
@@ -113,7 +113,7 @@ impl Drawing {
         }
     }
 
-    /// A ring around a place of note; `title` is shown when pointed at.
+    /// A ring around a finding; `title` is shown on hover.
     pub(super) fn ring(&mut self, (x, y): (f64, f64), look: &str, title: &str) {
         let colour = looks(look).split('"').nth(1).unwrap_or("#000000");
         let at = format!(r#"cx="{}" cy="{}""#, short(x), short(y));
@@ -178,7 +178,7 @@ fn short(coordinate: f64) -> String {
     format!("{:.1}", coordinate + 0.0).trim_end_matches(".0").to_owned()
 }
 
-/// A text with its marks escaped, and without characters that XML does not have.
+/// An escaped text, without characters that are invalid in XML.
 fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {

@@ -17,10 +17,10 @@ const COLUMNS: usize = WIDTH - LEFT - 1;
 /// The columns of a side without a scale.
 const STUB: usize = 10;
 
-/// A letter a curve: at its rows in upper case, between them in lower case.
+/// One letter per curve: at its rows in upper case, between them in lower case.
 const LETTERS: &[u8; 24] = b"abcdefghijklmnopqrstuvwx";
 
-/// The figures of decks, panel after panel.
+/// The figures of decks, panel by panel.
 pub(crate) fn text(figures: &[Figure], scales: Scales) -> String {
     let mut out = String::new();
     for figure in figures {

@@ -22,12 +22,12 @@ pub(crate) struct Named {
     pub(crate) origin: Origin,
 }
 
-/// How a deck came to be read.
+/// Why a deck is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Origin {
-    /// Somebody named it.
+    /// It was named.
     Argument,
-    /// It is in a folder that somebody named: where another deck includes it, it is judged there.
+    /// It is in a named folder: where another deck includes it, it is checked there.
     Folder,
 }
 
@@ -36,7 +36,7 @@ pub(crate) enum Origin {
 pub(crate) enum Same {
     /// They lead to the same bytes.
     Content,
-    /// They lead to the same place, links followed: of two hard links each is written, since a file that is replaced is linked no more.
+    /// Their paths are equal with links resolved: of two hard links each is written, since replacing a file breaks the link.
     Place,
 }
 
@@ -55,7 +55,7 @@ pub(crate) fn find(paths: &[PathBuf], same: Same, reading: &DeckArguments) -> Re
     Ok(decks.decks)
 }
 
-/// Decks, each file once, whatever names lead to it.
+/// Decks, each file once, whatever names refer to it.
 struct Each {
     decks: Vec<Named>,
     same: Same,
@@ -74,7 +74,7 @@ impl Each {
                 Same::Place => *self.places.entry(files::whole_path(&path)).or_insert(next),
             };
             if let Some(earlier) = self.decks.get_mut(number) {
-                // What somebody names is judged by itself, though it is in a folder as well.
+                // A named deck is checked on its own, even if it is in a folder as well.
                 if origin == Origin::Argument {
                     earlier.origin = origin;
                 }
@@ -87,7 +87,7 @@ impl Each {
 
 fn in_folder(folder: &Path, reading: &DeckArguments) -> Result<Vec<PathBuf>, Failure> {
     let by_name = |a: &std::ffi::OsStr, b: &std::ffi::OsStr| a.cmp(b);
-    // `.gitignore` says what is no source, with a repository around it or without.
+    // `.gitignore` applies with or without a repository.
     let walk = WalkBuilder::new(folder).require_git(false).sort_by_file_name(by_name).build();
     let mut found = Vec::new();
     let mut of_folders = BTreeMap::new();
@@ -113,9 +113,9 @@ fn in_folder(folder: &Path, reading: &DeckArguments) -> Result<Vec<PathBuf>, Fai
     Ok(found)
 }
 
-/// Which of some decks that come from folders are parts of others: those are judged where they are included, and not by themselves.
+/// Which decks from folders are included by others: those are checked there, and not on their own.
 ///
-/// `places` has the files of each deck, itself first. Of decks that include one another the first stays.
+/// `places` has the files of each deck, itself first. Of decks that include one another the first is kept.
 pub(crate) fn parts_of_others(decks: &[Named], places: &[Vec<PathBuf>]) -> Vec<bool> {
     let mut includers: BTreeMap<&Path, Vec<usize>> = BTreeMap::new();
     for (index, places) in places.iter().enumerate() {

@@ -10,7 +10,7 @@ pub(crate) enum DrawingFormat {
 }
 
 impl DrawingFormat {
-    /// The format that the end of a name says; `None` for any other name.
+    /// The format by file name extension; `None` for any other name.
     pub(crate) fn of_name(path: &Path) -> Option<Self> {
         match path.extension()?.to_ascii_lowercase().to_str()? {
             "svg" => Some(Self::Svg),

@@ -12,19 +12,19 @@ use std::io::Read;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-/// More notes than these of one run nobody reads.
+/// The maximum number of notes of one run.
 const MOST_NOTES: usize = 100;
 
 pub(crate) const RESULTS_HELP: &str = "What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; may be given several times: files are joined by their times, and where two say something of a node, the one named first counts";
 
-/// Reads result files and joins them with the mesh, after saying what could not be used.
+/// Reads result files and joins them with the mesh, after reporting unusable parts.
 pub(crate) fn states(results: &[PathBuf], meshed: &MeshedDeck, messages: Messages<'_>) -> Result<Joined, Failure> {
     let joined = join(results, meshed)?;
     say_notes(&joined.notes, messages);
     Ok(joined)
 }
 
-/// The states of a mesh at the times of result files, or at the beginning where there are none.
+/// The states of a mesh at the times of result files, or the initial state without any.
 pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<Joined, Failure> {
     if results.is_empty() || meshed.mesh.pairs.is_empty() {
         return Ok(Joined { states: vec![State::initial(&meshed.mesh)], files: Vec::new(), notes: Vec::new() });
@@ -39,7 +39,7 @@ pub(crate) fn join(results: &[PathBuf], meshed: &MeshedDeck) -> Result<Joined, F
 /// A result file on disk.
 struct FileOnDisk<'a> {
     path: &'a Path,
-    /// The bytes of a stream, which gives nothing a second time.
+    /// The bytes of a stream, which cannot be read a second time.
     spooled: Option<Vec<u8>>,
 }
 
@@ -77,12 +77,12 @@ impl ResultFile for FileOnDisk<'_> {
     }
 }
 
-/// Reports where a file breaks off, and the part before.
+/// Reports where a file is truncated, and the part before that.
 fn unsound(path: &Path, problem: &Problem, before: &str) -> Failure {
     Failure::Data(format!("{}:{}: {} ({}){before}", path.display(), problem.place.line, problem.message, problem.help))
 }
 
-/// The states before the place where a file breaks off.
+/// The states before the truncation of a file.
 fn before(states: usize, time: Option<f64>) -> String {
     let to = time.map_or_else(String::new, |time| format!(" up to time {time:?}"));
     match states {

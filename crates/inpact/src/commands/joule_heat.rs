@@ -5,19 +5,19 @@ use inpact_body::{BodyField, JouleHeat, Lumped};
 use inpact_parser::mesh::MeshNote;
 use inpact_parser::model::Name;
 
-/// The key of a link that says what share of the energy its current dissipates becomes heat.
+/// The key of a link for the fraction of the dissipated energy that becomes heat.
 pub(super) const JOULE_HEAT_FRACTION: &str = "joule_heat_fraction";
 
-/// The heat of the current in bodies of which both potentials and temperatures are wanted.
+/// Joule heat in bodies where both potentials and temperatures are requested.
 #[derive(Default)]
 pub(super) struct JouleHeats {
-    /// The share of each terminal's links; `None` where the deck gives none, or one field alone is wanted.
+    /// The fraction of each terminal's links; `None` where the deck gives none, or only one field is requested.
     shares: Vec<Option<f64>>,
     /// Data that the deck lacks.
     pub(super) missing: Vec<MeshNote>,
-    /// Shares that links cannot have.
+    /// Fractions that links cannot have.
     pub(super) refused: Vec<MeshNote>,
-    /// The bodies whose current makes heat, each with how.
+    /// The bodies with Joule heat, each with its origin.
     pub(super) heated: Vec<String>,
 }
 
@@ -54,12 +54,12 @@ impl JouleHeats {
         heats
     }
 
-    /// The share of the links of a terminal that have an electrical conductance; a link that gives none has 0.
+    /// The fraction of the links of a terminal with an electrical conductance; 0 by default.
     pub(super) fn share(&self, terminal: usize) -> Option<f64> {
         self.shares[terminal].filter(|share| 0.0 < *share)
     }
 
-    /// Whether any current makes heat.
+    /// Whether there is any Joule heat.
     pub(super) fn is_any(&self) -> bool {
         !self.heated.is_empty()
     }

@@ -7,7 +7,7 @@ use crate::text::{counted, number_text};
 use inpact_contact::{FileSummary, NodeRows, PairSummary, State};
 use serde_json::{Value, json};
 
-/// The rows of a deck's pairs in these states, after saying what was not read; an error where there are none.
+/// The rows of a deck's pairs in these states, after reporting parts not read; an error where there are none.
 pub(crate) fn node_rows<'a>(
     meshed: &'a MeshedDeck,
     states: &[State],
@@ -37,7 +37,7 @@ pub(crate) fn rows_of_pairs<'a>(meshed: &'a MeshedDeck, states: &[State]) -> Res
     Ok(NodeRows::new(mesh, model, states)?)
 }
 
-/// Refuses pairs without a node.
+/// Rejects pairs without a node.
 pub(crate) fn refuse_none(MeshedDeck { name, .. }: &MeshedDeck, rows: &NodeRows<'_>) -> Result<(), Failure> {
     if rows.nodes() == 0 {
         return Err(Failure::Data(format!("no contact pair of `{name}` has a slave node with a place in the mesh")));
@@ -46,9 +46,9 @@ pub(crate) fn refuse_none(MeshedDeck { name, .. }: &MeshedDeck, rows: &NodeRows<
 }
 
 pub(crate) struct RowsSummary {
-    /// Lines for a person, behind the one that says how many rows there are.
+    /// Readable lines, after the one with the number of rows.
     pub(crate) lines: Vec<String>,
-    /// The same for a program.
+    /// The same as JSON.
     pub(crate) value: Value,
 }
 

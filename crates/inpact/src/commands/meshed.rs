@@ -17,14 +17,14 @@ use std::cell::RefCell;
 use std::fs::File;
 use std::path::Path;
 
-/// More notes than these nobody reads, and each has to be looked for in the file.
+/// The maximum number of notes, each of which must be located in the file.
 const MOST_NOTES: usize = 100;
 
 pub(crate) struct MeshedDeck {
     pub(crate) name: String,
     pub(crate) read: ReadDeck,
     pub(crate) mesh: Mesh,
-    /// The conditions of the step that was wanted; none where no step was.
+    /// The conditions of the requested step, if any.
     pub(crate) conditions: DeckConditions,
     /// The files of the deck, where their rows are read from them; otherwise the deck has kept its rows.
     files: RefCell<Option<SeekableRows<File>>>,
@@ -44,7 +44,7 @@ impl MeshedDeck {
         Ok(read.0)
     }
 
-    /// The same with further parts of the mesh, and the conditions of a step, where the model says that some are wanted; gives the places of the parts among the surfaces of the mesh.
+    /// The same with further parts of the mesh, and the conditions of a step, as requested for the model; returns the indices of the parts among the surfaces of the mesh.
     pub(crate) fn read_parts(
         path: &Path,
         settings: &Settings,
@@ -62,7 +62,7 @@ impl MeshedDeck {
         Ok((Self { name, read, mesh, conditions, files: RefCell::new(files) }, places))
     }
 
-    /// Reads a deck and its bodies, which end at these surfaces and node sets; of the surfaces of its contact pairs nothing.
+    /// Reads a deck and its bodies with these terminals, without the surfaces of its contact pairs.
     pub(crate) fn read_body(
         path: &Path,
         settings: &Settings,
@@ -79,7 +79,7 @@ impl MeshedDeck {
     /// Reads a deck, whose rows are then read from its files, if they are on the disk.
     fn open(path: &Path, settings: &Settings) -> Result<(ReadDeck, Option<SeekableRows<File>>), Failure> {
         let is_on_disk = path.metadata().is_ok_and(|metadata| metadata.is_file());
-        // A stream cannot be read twice, and content that is known without reading is on no disk.
+        // A stream cannot be read twice, and content in memory is not on disk.
         let is_file = is_on_disk && !settings.has_known_content();
         let keep = if is_file { Keep::Interpreted } else { Keep::Everything };
         let located = input::read_located_deck(path, keep, settings, None)?;
@@ -87,24 +87,24 @@ impl MeshedDeck {
         Ok((ReadDeck::of(located, settings), files))
     }
 
-    /// Line and column of a span, also in rows that were not kept.
+    /// Line and column of a span, even in rows that were not kept.
     fn position(&self, span: Span) -> Result<Position, Failure> {
         let position = self.with_rows(|rows| mesh::position(&self.read.deck, rows, span));
         position.map_err(|error| Failure::read(Path::new(&self.name), error))
     }
 
-    /// Hands the rows of the deck to a reader.
+    /// Passes the rows of the deck to a reader.
     pub(crate) fn with_rows<T>(&self, read: impl FnOnce(&mut dyn RowBytes) -> T) -> T {
         with_rows(&mut self.files.borrow_mut(), &self.read.deck, read)
     }
 
-    /// Where a span is, as compilers say it: `deck.inp:12`.
+    /// The location of a span, as in compiler messages: `deck.inp:12`.
     pub(crate) fn place_of(&self, span: Span) -> Result<String, Failure> {
         let file = self.read.deck.source(span.source()).name();
         Ok(format!("{file}:{}", self.position(span)?.line))
     }
 
-    /// Where a span is, for messages: `line 12 of `deck.inp``.
+    /// The location of a span, for messages: `line 12 of `deck.inp``.
     pub(crate) fn line_of(&self, span: Span) -> Result<String, Failure> {
         let file = self.read.deck.source(span.source()).name();
         Ok(format!("line {} of `{file}`", self.position(span)?.line))
@@ -118,7 +118,7 @@ impl MeshedDeck {
         Ok(())
     }
 
-    /// A finding at a place in the deck; without one it is of the deck as a whole.
+    /// A finding at a place in the deck; without one it concerns the whole deck.
     pub(crate) fn finding(&self, rule: &Rule, span: Option<Span>, message: &str) -> Result<Diagnostic, Failure> {
         let mut label = Label::new(span.unwrap_or_default(), "");
         label.file = self.read.deck.source(label.span.source()).name().into();
@@ -129,7 +129,7 @@ impl MeshedDeck {
         Ok(Diagnostic::new(rule, message, label))
     }
 
-    /// Says findings of a rule that are not grave, each at its place; true if the configuration makes errors of them.
+    /// Prints findings of a minor rule, each at its place; true if the configuration turns them into errors.
     pub(crate) fn say_findings(
         &self,
         rule: &Rule,
@@ -149,7 +149,7 @@ impl MeshedDeck {
         }
     }
 
-    /// Says something of a place in the deck.
+    /// Prints a note on a place in the deck.
     fn say_note(&self, note: &MeshNote, messages: Messages<'_>) -> Result<(), Failure> {
         let (place, severity) = (self.position(note.span)?, "note");
         let file = self.read.deck.source(note.span.source()).name();
@@ -175,7 +175,7 @@ impl MeshedDeck {
     }
 }
 
-/// The mesh of a deck that was read already: from the rows it has kept, or else from its files.
+/// The mesh of a deck already read: from its kept rows, or else from its files.
 pub(crate) fn mesh_of(
     path: &Path,
     located: &LocatedDeck,
@@ -189,7 +189,7 @@ pub(crate) fn mesh_of(
     mesh.map_err(|error| Failure::read(path, error))
 }
 
-/// Hands the rows of a deck to a reader: those of its files, or else those that it has kept.
+/// Passes the rows of a deck to a reader: those of its files, or else its kept ones.
 fn with_rows<T>(files: &mut Option<SeekableRows<File>>, deck: &Deck, read: impl FnOnce(&mut dyn RowBytes) -> T) -> T {
     match files {
         Some(files) => read(files),
@@ -207,7 +207,7 @@ struct Record<'a> {
     message: &'a str,
 }
 
-/// The files of a deck, to be read once more.
+/// The files of a deck, to be read again.
 fn open_all(located: &LocatedDeck) -> Result<SeekableRows<File>, Failure> {
     let mut opened = Vec::new();
     for (source, place) in (0..).zip(&located.places) {

@@ -15,13 +15,13 @@ use inpact_evaluation::{Evaluation, Tally};
 use inpact_results::vtu::{Cell, CellKind};
 use std::collections::{BTreeMap, HashMap};
 
-/// About how many rows are drawn.
+/// The approximate number of rows drawn.
 const SAMPLE: u64 = 3000;
 
-/// The most faces of interfaces that are drawn.
+/// The maximum number of faces drawn.
 const MOST_FACES: usize = 4000;
 
-/// The most times of which sums are kept.
+/// The maximum number of times with sums.
 const MOST_TIMES: usize = 20_000;
 
 /// The laws with a column of their own among the results.
@@ -33,20 +33,20 @@ const LAWS: [(LawKind, Output); 3] = [
 
 /// Results of an evaluation.
 pub(crate) struct Gathered {
-    /// The rows of each law of each interaction, by its place in the model.
+    /// The rows of each law of each interaction, by its index in the model.
     rows: HashMap<(usize, LawKind), NodeRows>,
     /// Sums over the nodes of each interface.
     pub(crate) histories: Vec<History>,
-    /// The interfaces in the colours of results, at the last state; empty where their geometry is not known.
+    /// The interfaces coloured by results, at the last state; empty where their geometry is unknown.
     pub(crate) surfaces: Vec<Surface>,
     pub(crate) tally: Tally,
     pub(crate) findings: Findings,
 }
 
-/// Times as keys: by their order, whatever they are.
+/// Times as ordered keys.
 type Sums = BTreeMap<(usize, usize, u64), (Option<f64>, UnboundedSum)>;
 
-/// Evaluates a node table for what is drawn of it.
+/// Evaluates a node table for drawing.
 ///
 /// # Errors
 /// A node table that cannot be read.
@@ -54,7 +54,7 @@ pub(crate) fn gather(arguments: &EvaluableArguments, evaluable: &mut Evaluable) 
     let path = arguments.nodes_path();
     let unreadable = |error| Failure::read(path, error);
     let Evaluable { model, plan, choices, nodes_name, rows, made, .. } = evaluable;
-    // A column with one value is folded away, and still says where its rows are.
+    // A constant column is folded, but still gives the positions of its rows.
     let mut selection = plan.selection.clone();
     let located = [Column::Clearance, Column::Pressure, Column::Closed, Column::Time];
     selection.numbers.extend(located.into_iter().filter(|column| !plan.selection.numbers.contains(column)));
@@ -103,7 +103,7 @@ pub(crate) fn gather(arguments: &EvaluableArguments, evaluable: &mut Evaluable) 
 }
 
 impl Gathered {
-    /// The places that axes must hold so that every row that is drawn is on them.
+    /// The points that axes must include so that every drawn row is within.
     pub(crate) fn held_places(&self, evaluable: &Evaluable) -> Vec<HeldPlace> {
         let names: Vec<_> = evaluable.model.interactions.keys().collect();
         let places = self.rows.iter().flat_map(|((interaction, law), rows)| {
@@ -117,7 +117,7 @@ impl Gathered {
         places.collect()
     }
 
-    /// Puts the rows on the curves of their laws.
+    /// Adds the rows to the curves of their laws.
     pub(crate) fn place(&self, figure: &mut Figure, evaluable: &Evaluable) {
         for panel in &mut figure.panels {
             let is_meant = |name: &inpact_parser::model::Name| name.written() == panel.interaction;
@@ -131,18 +131,18 @@ impl Gathered {
 struct Coloured {
     name: String,
     source: Source,
-    /// A value a row.
+    /// One value per row.
     values: Vec<f64>,
 }
 
-/// Columns that colour: one of the batches, or one of the results.
+/// Columns for colouring: from the batches or from the results.
 #[derive(Clone, Copy)]
 enum Source {
     Given(usize),
     Result(usize),
 }
 
-/// The faces of the last state in the colours of their results.
+/// The faces of the last state coloured by their results.
 fn surfaces(drawn: &Drawn, coloured: &[Coloured]) -> Vec<Surface> {
     let Some(state) = drawn.states.last() else { return Vec::new() };
     let grid = drawn.faces.grid(state, Vec::new());
@@ -154,7 +154,7 @@ fn surfaces(drawn: &Drawn, coloured: &[Coloured]) -> Vec<Surface> {
     let surface = |Coloured { name, values, .. }: &Coloured| {
         let values = values.get(first..first + drawn.faces.points())?;
         let face = |cell: &Cell| {
-            // Corners come before the nodes between them.
+            // Corners come before midside nodes.
             let corners = match cell.kind {
                 CellKind::QuadraticTriangle => 3,
                 CellKind::QuadraticQuadrilateral => 4,
@@ -164,7 +164,7 @@ fn surfaces(drawn: &Drawn, coloured: &[Coloured]) -> Vec<Surface> {
             let place = |point: &usize| directions.map(|axis| grid.points[*point][axis]);
             let known = cell.points.iter().map(|point| values[*point]).filter(|value| value.is_finite());
             let count = known.clone().count();
-            // Shares first: a sum of large values may have no number.
+            // Divided first: a sum of large values may overflow.
             let mean: f64 = known.map(|value| value / count as f64).sum();
             (0 < count).then(|| (cell.points.iter().take(corners).map(place).collect(), mean))
         };
@@ -175,7 +175,7 @@ fn surfaces(drawn: &Drawn, coloured: &[Coloured]) -> Vec<Surface> {
     coloured.iter().filter_map(surface).collect()
 }
 
-/// Where batches and results have what is drawn.
+/// Indices in batches and results of the drawn quantities.
 struct Places {
     clearance: Option<usize>,
     pressure: Option<usize>,

@@ -19,7 +19,7 @@ pub(crate) struct Drawn {
 }
 
 impl Drawn {
-    /// A value a row, by state, pair (a position among those of the mesh) and node.
+    /// One value per row, by state, pair (a position among those of the mesh) and node.
     pub(crate) fn rows(&self, value: impl Fn(&State, usize, NodeId) -> Option<f64>) -> Vec<Option<f64>> {
         let rows =
             self.states.iter().flat_map(|state| self.faces.rows().map(move |(pair, node, _)| (state, pair, node)));
@@ -38,13 +38,13 @@ impl Drawn {
     }
 }
 
-/// Whether a file name is that of a picture: it ends in `.vtu` or `.pvd`.
+/// Whether a file name ends in `.vtu` or `.pvd`.
 pub(crate) fn is_picture(path: &Path) -> bool {
     let extension = path.extension().map(std::ffi::OsStr::to_ascii_lowercase);
     extension.is_some_and(|extension| extension == "vtu" || extension == "pvd")
 }
 
-/// Gathers the columns of a state, and draws it once all of its rows are there.
+/// Collects the columns of a state, and draws it once it is complete.
 pub(crate) struct PictureWriter<'a> {
     drawn: &'a Drawn,
     target: &'a Path,
@@ -56,7 +56,7 @@ pub(crate) struct PictureWriter<'a> {
 }
 
 impl<'a> PictureWriter<'a> {
-    /// Nothing drawn yet, of columns with these names.
+    /// A picture of columns with these names.
     pub(crate) fn new(drawn: &'a Drawn, target: &'a Path, names: Vec<String>) -> Result<Self, Failure> {
         let columns = vec![Vec::new(); names.len()];
         let writer = Self { drawn, target, names, columns, files: Vec::new(), moments: Vec::new() };
@@ -66,7 +66,7 @@ impl<'a> PictureWriter<'a> {
         Ok(writer)
     }
 
-    /// Takes a row: a value a column.
+    /// Adds a row: one value per column.
     pub(crate) fn push(&mut self, values: impl Iterator<Item = Option<f64>>) -> Result<(), Failure> {
         for (column, value) in self.columns.iter_mut().zip(values) {
             column.push(value.unwrap_or(f64::NAN));
@@ -74,7 +74,7 @@ impl<'a> PictureWriter<'a> {
         self.draw_if_complete()
     }
 
-    /// Takes rows with their results: of the node table the columns at these places, then the outputs.
+    /// Adds rows with their results: the columns of the node table at these indices, then the outputs.
     pub(crate) fn take(
         &mut self,
         batch: &Batch,
@@ -116,7 +116,7 @@ impl<'a> PictureWriter<'a> {
         Ok(())
     }
 
-    /// Gives the files their names, the one that lists them last.
+    /// Renames the files to their targets, the list last.
     pub(crate) fn finish(mut self) -> Result<(), Failure> {
         for file in std::mem::take(&mut self.files) {
             file.finish()?;
@@ -127,7 +127,7 @@ impl<'a> PictureWriter<'a> {
         file.finish()
     }
 
-    /// The picture of a state: the name that was given where it is the only one, else with its number.
+    /// The picture of a state: the given name if it is the only one, else with its number.
     fn path(&self, state: usize) -> PathBuf {
         if self.collection().is_none() {
             return self.target.to_owned();

@@ -33,7 +33,7 @@ pub(crate) struct SolvableScene {
     text: String,
 }
 
-/// Reasons why solving ended early: there is no solution, or whoever takes the states has had enough.
+/// Reasons why solving ended early: there is no solution, or the receiver of the states stopped.
 pub(crate) enum Ended<T> {
     Solving(Error),
     Taking(T),
@@ -49,7 +49,7 @@ impl<T> From<Error> for Ended<T> {
 pub(crate) type LawChoices<'a> = &'a dyn Fn(&Model, Dialect, Option<Regime>) -> Result<Choices, Failure>;
 
 impl SolvableScene {
-    /// Reads a scene and its deck; `None` after saying what is wrong with them.
+    /// Reads a scene and its deck; `None` after reporting their faults.
     pub(crate) fn read(
         path: &Path,
         laws: LawChoices<'_>,
@@ -60,7 +60,7 @@ impl SolvableScene {
         // That of standard input, `-`, is the working folder.
         let folder = path.parent().unwrap_or(Path::new(""));
         let text = files::read_text(path)?;
-        // No line of TOML begins so.
+        // No TOML line begins like this.
         if text.trim_start().starts_with('*') {
             return Err(Failure::Usage(format!(
                 "`{name}` is a deck, where a scene is expected: `inpact scene {name}` makes one of it, and `inpact check {name}` judges it"
@@ -161,7 +161,7 @@ impl SolvableScene {
 }
 
 pub(crate) fn choices_of(scene: &Scene, laws: Choices) -> Choices {
-    // A scene that says nothing of potentials is one of heat alone.
+    // A scene without potentials is purely thermal.
     let currents = if scene.mentions(Field::Potential) { Currents::OfTheDeck } else { Currents::None };
     let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
     Choices {
@@ -178,7 +178,7 @@ pub(crate) fn steps_of(read: &ReadDeck, grammar: &Grammar) -> usize {
     ids.filter(|id| grammar.keyword(*id).name == "STEP").count()
 }
 
-/// Findings in a scene with the lines around them; those in the tables beside it have theirs from their reader.
+/// Findings in a scene with the lines around them; those in its tables have theirs from their reader.
 fn quoted(text: &str, name: &str, found: Vec<Diagnostic>) -> Vec<Diagnostic> {
     let (mut of_scene, others): (Vec<_>, Vec<_>) = found.into_iter().partition(|found| *found.primary.file == *name);
     // A text in memory can be read.
@@ -187,7 +187,7 @@ fn quoted(text: &str, name: &str, found: Vec<Diagnostic>) -> Vec<Diagnostic> {
     of_scene
 }
 
-/// Refuses a file that a scene names and that is no regular one, or lies outside of what may be read.
+/// Rejects a file named in a scene that is not a regular one, or lies outside of the roots.
 fn refuse_outside(path: &Path, roots: &[PathBuf]) -> Result<(), Failure> {
     let reason = match roots.iter().find(|root| !reach::lies_in_all(path, std::slice::from_ref(*root))) {
         Some(root) => format!("it lies outside of `{}`, outside of which nothing is read", root.display()),
@@ -201,7 +201,7 @@ fn refuse_outside(path: &Path, roots: &[PathBuf]) -> Result<(), Failure> {
 
 struct FilesBeside<'a> {
     folder: &'a Path,
-    /// Outside of which nothing is read.
+    /// The roots, outside of which nothing is read.
     roots: &'a [PathBuf],
     /// The files that were read, the scene first.
     read: Vec<PathBuf>,

@@ -13,7 +13,7 @@ struct Link {
     conductances: Vec<f64>,
 }
 
-/// The conductances below zero, which have no place in a network.
+/// The negative conductances, which a network cannot have.
 pub(super) fn negative(found: &Found<'_>) -> Vec<String> {
     let name = |at: usize| found.body.terminals()[at].name.written();
     let of_field = |lumped: &Lumped| {
@@ -35,7 +35,7 @@ pub(super) fn negative(found: &Found<'_>) -> Vec<String> {
 fn conducting(found: &Found<'_>) -> Vec<Link> {
     let within = |lumped: &Lumped| lumped.isothermal.within_bodies().map(|(a, b, _)| [a, b]).collect::<Vec<_>>();
     let all: BTreeSet<[usize; 2]> = found.lumped.iter().flat_map(within).collect();
-    // What is below zero here is rounding.
+    // Negative values here are rounding.
     let of = |[a, b]: [usize; 2]| Link {
         nodes: [a, b],
         conductances: found.lumped.iter().map(|lumped| lumped.isothermal.between(a, b).max(0.0)).collect(),
@@ -91,7 +91,7 @@ fn of_node(lumped: &Lumped, at: usize) -> String {
     }
 }
 
-/// A number as TOML has it, read back as it is.
+/// A number in TOML that round-trips.
 fn toml_number(value: f64) -> String {
     format!("{value:?}")
 }

@@ -29,7 +29,7 @@ fn value_of(lumped: &Lumped) -> &'static str {
     }
 }
 
-/// Seven digits, which a person compares with those of a solver; zeros at their end left out.
+/// Seven digits, as printed by solvers, without trailing zeros.
 pub(super) fn short(value: f64) -> String {
     format!("{value:.6e}").parse().map_or_else(|_| value.to_string(), number_text)
 }
@@ -110,7 +110,7 @@ fn remarks(names: &[&str], lumped: &Lumped) -> String {
     text
 }
 
-/// The first column has names, all others numbers and words to the right.
+/// The first column has names; all others are right-aligned.
 fn table(rows: &[Vec<String>]) -> String {
     aligned(rows, "  ", |column| column == 0)
 }

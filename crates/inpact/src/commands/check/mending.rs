@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// Result of mending, as it is shown.
+/// Result of fixing, for output.
 #[derive(Debug, Default)]
 pub(super) struct Mending {
     pub(super) differences: String,
@@ -19,9 +19,9 @@ pub(super) struct Mending {
     pub(super) has_failed: bool,
 }
 
-/// Mends the decks, before anything is said of them: whoever reads that may stop reading.
+/// Fixes the decks before anything is printed, as the reader of a pipe may stop.
 ///
-/// Afterwards they are checked as they are now; or as they were, when nothing could be written.
+/// Then they are checked in their new state, or in the old one if nothing could be written.
 pub(super) fn mend(
     checked: &mut [Result<Checked<'_>, Failure>],
     arguments: &CheckArguments,

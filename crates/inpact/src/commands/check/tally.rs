@@ -18,7 +18,7 @@ pub(super) struct Tally {
 #[derive(Debug, Default, Clone, Copy)]
 struct OfCode {
     count: usize,
-    /// How many of them `--fix` mends.
+    /// The number of them that `--fix` fixes.
     fixable: usize,
 }
 
@@ -34,7 +34,7 @@ impl Tally {
         tally
     }
 
-    /// The same of findings that no fix is applied to.
+    /// The same for findings without an applied fix.
     pub(super) fn without_fixes(diagnostics: &[Diagnostic]) -> Self {
         let mut tally = Self::of_findings(diagnostics);
         tally.codes.values_mut().for_each(|of_code| of_code.fixable = 0);
@@ -69,9 +69,9 @@ impl Tally {
         format!("{checked}: {}, {}, {}", of(Severity::Error), of(Severity::Warning), of(Severity::Note))
     }
 
-    /// The rules that found something, the most frequent first: a line each, or a JSON array.
+    /// The rules with findings, the most frequent first: one line each, or a JSON array.
     ///
-    /// As ruff has it: where any finding can be mended, `[*]` marks rules all of whose findings `--fix` mends, `[-]` those of which it mends some.
+    /// As in ruff: where any finding can be fixed, `[*]` marks rules all of whose findings `--fix` fixes, `[-]` those of which it fixes some.
     pub(super) fn statistics(&self, format: Format) -> String {
         let mut lines: Vec<_> = self.codes.iter().collect();
         lines.sort_by_key(|(code, of_code)| (std::cmp::Reverse(of_code.count), **code));
@@ -99,7 +99,7 @@ impl Tally {
         lines.iter().map(line).collect()
     }
 
-    /// How many findings `--fix` mends.
+    /// The number of findings that `--fix` fixes.
     pub(super) fn fixable(&self) -> usize {
         self.codes.values().map(|of_code| of_code.fixable).sum()
     }

@@ -10,10 +10,10 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// How often the files are asked.
+/// The polling interval.
 const PAUSE: Duration = Duration::from_millis(300);
 
-/// The state of the files of a deck before it was read; `None` for one that was not there.
+/// The state of the files of a deck before it was read; `None` for a missing one.
 type Stamps = BTreeMap<PathBuf, Option<Stamp>>;
 
 /// Checks all decks, then those that change, until the program is stopped.
@@ -29,7 +29,7 @@ pub(super) fn watch(arguments: &CheckArguments) -> Result<Outcome, Failure> {
         };
         let due: Vec<Named> = decks.iter().filter(has_changed).cloned().collect();
         if !due.is_empty() {
-            // Taken before the files are read: what changes meanwhile is seen the next time.
+            // Taken before the files are read, so that concurrent changes are seen the next time.
             let files = known.values().flat_map(Stamps::keys);
             let before: Stamps = files.map(|file| (file.clone(), Stamp::of(file))).collect();
             let round = check_all(&due, arguments)?;
@@ -50,7 +50,7 @@ pub(super) fn watch(arguments: &CheckArguments) -> Result<Outcome, Failure> {
     }
 }
 
-/// Where a configuration that counts for a deck may be: one that comes or goes changes what is found as well.
+/// The possible paths of a configuration for a deck: creating or removing one changes the findings as well.
 fn configurations(deck: &Path) -> Vec<PathBuf> {
     let folder = crate::reach::folder_of_deck(deck);
     folder.ancestors().map(|folder| folder.join(crate::settings::FILE_NAME)).collect()

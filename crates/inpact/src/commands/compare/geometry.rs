@@ -25,18 +25,18 @@ pub(super) struct Geometry {
     pairs: Vec<PairOfRows>,
     /// The number of rows of a state.
     rows: usize,
-    /// A row each of all states: the area, and whether it is in contact.
+    /// For each row of all states: the area, and whether it is in contact.
     areas: Vec<Option<f64>>,
     closed: Vec<bool>,
-    /// The averaged normals of the slave, where the flux of heat in bodies is to be compared.
+    /// The averaged normals of the slave, where the heat flux in bodies is compared.
     normals: Vec<Option<[f64; 3]>>,
 }
 
-/// The quantities of node tables that the mesh gives too.
+/// The quantities of node tables that the mesh also gives.
 const OF_MESH: [ContactQuantity; 2] = [ContactQuantity::Clearance, ContactQuantity::Area];
 
 impl Geometry {
-    /// The geometry as far as the results say something that it is compared with, and clearances and areas beside those of the solver.
+    /// The geometry as far as the results have values to compare, with clearances and areas beside those of the solver.
     pub(super) fn of(arguments: &CompareArguments, prepared: &Evaluable) -> Result<(Self, Vec<Quantity>), Failure> {
         let nothing = || Ok((Self::default(), Vec::new()));
         let Some(made) = &prepared.made else { return nothing() };
@@ -93,7 +93,7 @@ impl Geometry {
         Ok(())
     }
 
-    /// The heat into the slave surface by the flux in its body: against the normal, which leads out of it.
+    /// The heat into the slave surface by the flux in its body: against the outward normal.
     pub(super) fn heat_into_slave(&self, drawn: &Drawn) -> Option<Quantity> {
         if self.normals.is_empty() {
             return None;
@@ -111,7 +111,7 @@ impl Geometry {
         Some(Quantity { solvers, source: source.unwrap_or_default(), ..Quantity::of_output(Output::TotalHeatSlave) })
     }
 
-    /// Sums over pairs beside those that the solver says; `heat` is what goes into slave and master by area, a row each.
+    /// Sums over pairs beside those of the solver; `heat` is the flux into slave and master per area, one per row.
     pub(super) fn totals(&self, drawn: &Drawn, heat: [&[Option<f64>]; 2]) -> Vec<Quantity> {
         let [into_slave, into_master] = heat;
         let ones: Vec<Option<f64>> = self.closed.iter().map(|closed| Some(f64::from(u8::from(*closed)))).collect();
@@ -132,7 +132,7 @@ impl Geometry {
                     let said = state.totals.iter().find(|total| (total.quantity, total.pair) == (quantity, pair.index));
                     compared.solvers.push(said.map(|total| total.value));
                     let rows = at * self.rows + pair.rows.start..at * self.rows + pair.rows.end;
-                    // Not known where a term is not.
+                    // Unknown where a term is unknown.
                     compared.ours.push(rows.map(|row| Some((*by_area.get(row)?)? * (*self.areas.get(row)?)?)).sum());
                 }
             }
@@ -141,16 +141,16 @@ impl Geometry {
         quantities
     }
 
-    /// The names of the pairs, a row each of all states, and their times.
+    /// The names of the pairs, for each row of all states, and their times.
     pub(super) fn names_and_times(&self, drawn: &Drawn) -> (Vec<String>, Vec<Option<f64>>) {
         let of_states = drawn.states.iter().flat_map(|state| self.pairs.iter().map(move |pair| (pair, state)));
         of_states.map(|(pair, state)| (pair.name.clone(), state.moment.time)).unzip()
     }
 }
 
-/// Clearances and areas of the moved mesh beside those that the solver says.
+/// Clearances and areas of the deformed mesh beside those of the solver.
 fn of_mesh(meshed: &MeshedDeck, drawn: &Drawn) -> Result<Vec<Quantity>, Failure> {
-    // Without what the solver says the rows have what the mesh says.
+    // Without the solver's values the rows have those of the mesh.
     let states: Vec<State> = drawn.states.iter().cloned().map(|state| State { contact: Vec::new(), ..state }).collect();
     let mut rows = NodeRows::new(&meshed.mesh, &meshed.read.model, &states)?;
     let fields =

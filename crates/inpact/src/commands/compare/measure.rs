@@ -3,20 +3,20 @@
 use crate::commands::evaluable::Evaluable;
 use inpact_evaluation::results::Output;
 
-/// A quantity: a value a row on both sides, `None` where one is not known.
+/// A quantity: one value per row on both sides, `None` where it is unknown.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Quantity {
     pub(super) name: String,
     /// Its unit by dimension; `1` for a pure number.
     pub(super) dimension: &'static str,
-    /// Where the solver says it.
+    /// The solver's source.
     pub(super) source: String,
     pub(super) rows_of: RowsOf,
     pub(super) ours: Vec<Option<f64>>,
     pub(super) solvers: Vec<Option<f64>>,
 }
 
-/// The things that a quantity has a row of in each state.
+/// The subjects of the rows of a quantity in each state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum RowsOf {
     /// Each slave node.
@@ -34,20 +34,20 @@ impl RowsOf {
     }
 }
 
-/// The place of the largest difference.
+/// The index of the largest difference.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Largest {
     pub(super) row: usize,
     /// |ours − solver's|.
     pub(super) difference: f64,
-    /// That as a part of the largest value that the solver says; infinite where that is 0.
+    /// The same relative to the solver's largest value; infinite where that is 0.
     pub(super) relative: f64,
 }
 
 /// The name and the time of each row.
 pub(super) type NamesAndTimes = (Vec<String>, Vec<Option<f64>>);
 
-/// All quantities, and what rows are called.
+/// All quantities, and the names of rows.
 #[derive(Debug)]
 pub(super) struct Comparison {
     /// The source of the rows.
@@ -75,17 +75,17 @@ impl Quantity {
         rows.filter_map(|(row, (ours, solvers))| Some((row, (*ours)?, (*solvers)?)))
     }
 
-    /// In how many rows both values are known.
+    /// The number of rows with both values.
     pub(super) fn compared(&self) -> usize {
         self.both().count()
     }
 
-    /// In how many rows the solver alone says a value.
+    /// The number of rows with only the solver's value.
     pub(super) fn not_computed(&self) -> usize {
         self.ours.iter().zip(&self.solvers).filter(|(ours, solvers)| ours.is_none() && solvers.is_some()).count()
     }
 
-    /// The largest difference; one that is not a number is the largest of all. `None` where nothing is compared.
+    /// The largest difference; NaN counts as the largest of all. `None` where nothing is compared.
     pub(super) fn largest(&self) -> Option<Largest> {
         let scale = self.both().map(|(_, _, solvers)| solvers.abs()).fold(0.0, f64::max);
         let difference = |ours: f64, solvers: f64| if ours == solvers { 0.0 } else { (ours - solvers).abs() };
@@ -126,7 +126,7 @@ impl Comparison {
         (&names[row], times[row])
     }
 
-    /// Whether a quantity is beyond the tolerance.
+    /// Whether a quantity exceeds the tolerance.
     pub(super) fn is_beyond(&self) -> bool {
         self.quantities.iter().any(|quantity| self.is_quantity_beyond(quantity))
     }

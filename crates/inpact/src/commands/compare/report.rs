@@ -5,7 +5,7 @@ use crate::text::{aligned, csv_text, number_text};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
-/// The comparison as text: a line a quantity, with its largest difference.
+/// The comparison as text: one line per quantity, with its largest difference.
 pub(super) fn text(comparison: &Comparison) -> String {
     let mut text = format!("{}, {} rows: ours beside the solver's\n\n", comparison.made_of, comparison.rows());
     let mut lines = vec![
@@ -48,7 +48,7 @@ pub(super) fn text(comparison: &Comparison) -> String {
     text
 }
 
-/// A row a node, or a pair, a state and a quantity.
+/// One row per node or pair, state and quantity.
 pub(super) fn table(comparison: &Comparison) -> String {
     let mut text = String::from("node,time,quantity,ours,solver,difference,relative_to_largest\n");
     for quantity in &comparison.quantities {

@@ -6,15 +6,15 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// Files that differ from where a branch began.
+/// Files that differ from the merge base of a branch.
 #[derive(Debug)]
 pub(crate) struct Changed(BTreeSet<PathBuf>);
 
 impl Changed {
-    /// Differences between the files at hand and the commit where `reference` and this branch part; new files too.
+    /// Differences between the working tree and the merge base of `reference` and this branch, including new files.
     ///
     /// # Errors
-    /// The message of git where it cannot tell, and a git that cannot be run.
+    /// The error message of git, or git cannot be run.
     pub(crate) fn since(reference: &str) -> Result<Self, Failure> {
         if reference.starts_with('-') {
             return Err(Failure::Usage(format!("`--since`: `{reference}` is no reference of git")));
@@ -25,7 +25,7 @@ impl Changed {
         let base = git(here, &["merge-base", "HEAD", reference])?;
         let base = String::from_utf8_lossy(&base).trim().to_owned();
         let changed = git(here, &["diff", "--name-only", "--no-renames", "-z", &base, "--"])?;
-        // Asked at the top: names of new files are relative to where one is.
+        // Run at the top level: names of new files are relative to the working folder.
         let new = git(&top, &["ls-files", "--others", "--exclude-standard", "-z"])?;
         let names = changed.split(|byte| *byte == 0).chain(new.split(|byte| *byte == 0));
         let names = names.filter(|name| !name.is_empty());

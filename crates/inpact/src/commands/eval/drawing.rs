@@ -9,7 +9,7 @@ use inpact_evaluation::plan::Plan;
 use inpact_evaluation::{Evaluation, Tally};
 use std::path::Path;
 
-/// Evaluates the rows that were made of a mesh and draws them; gives the counts and the number of rows.
+/// Evaluates the rows of a mesh and draws them; returns the counts and the number of rows.
 pub(super) fn evaluate_and_draw(
     evaluable: &mut Evaluable,
     target: &Path,
@@ -45,7 +45,7 @@ pub(super) fn evaluate_and_draw(
     Ok((tally, rows))
 }
 
-/// The columns that laws read, then the others that have numbers: what is the same in all rows is left out of an evaluation, but not of a picture.
+/// The columns that laws read, then the others with numbers: constant columns are left out of an evaluation, but not of a picture.
 fn with_all_that_was_read(plan: &Plan) -> Selection {
     let mut selection = plan.selection.clone();
     for column in plan.columns.iter().filter(|column| column.range.is_some()).filter_map(|column| column.column) {

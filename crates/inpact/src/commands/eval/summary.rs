@@ -7,7 +7,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// Up to so many interactions each has a line in the summary; more have one together.
+/// Up to this number of interactions each has a line in the summary; more share one.
 const MOST_INTERACTIONS: usize = 12;
 
 /// Summary of an evaluation, for standard error.
@@ -19,7 +19,7 @@ pub(super) struct Summary<'a> {
 }
 
 impl Summary<'_> {
-    /// Lines for a person.
+    /// Readable lines.
     pub(super) fn text(&self) -> Vec<String> {
         let seconds = self.time.as_secs_f64();
         let mut lines = vec![format!("{} in, {} out, {seconds:.3} s", rows(self.tally.rows), rows(self.rows_out))];
@@ -132,7 +132,7 @@ struct InteractionRecord<'a> {
     beyond_curves: u64,
     below_absolute_zero: u64,
     negative_friction: u64,
-    /// Rows that take the jump of an open circuit into the heat of the increment that closes it (D022).
+    /// Rows that include the jump of an open circuit in the heat of the increment that closes it (D022).
     closing: u64,
     /// Rows whose given rate contradicts the change of their clearance (D021).
     contradictory_rates: u64,
@@ -213,14 +213,14 @@ fn said_in_plan(plan: &InteractionPlan) -> Vec<String> {
         Some(format!("note: {law}, {regime}"))
     });
     let notes = plan.notes.iter().map(|note| format!("note: {note}"));
-    // An output that was not requested, and a table that no row reads, is no loss.
+    // Outputs that were not requested, and tables that no row reads, are not reported.
     let is_lost = |reason: &Reason| !matches!(reason, Reason::NotRequested | Reason::NoRowClosed | Reason::NoRowOpen);
     let left_out = plan.left_out.iter().filter(|left_out| is_lost(&left_out.reason));
     let left_out = left_out.map(|left_out| format!("without {}: {}", left_out.what, left_out.reason));
     disputed.chain(notes).chain(left_out).collect()
 }
 
-/// The same of many interactions: each line once, with how many it is of.
+/// The same for many interactions: each line once, with their number.
 fn said_together(plans: &[InteractionPlan]) -> Vec<String> {
     let mut said: Vec<(String, usize)> = Vec::new();
     for line in plans.iter().flat_map(said_in_plan) {

@@ -6,10 +6,10 @@ use crate::files::transaction::{self, Change};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-/// Folders that were made for the files; those that stay empty are removed again.
+/// Folders created for the files; empty ones are removed again.
 struct MadeFolders(Vec<PathBuf>);
 
-/// Writes the files under their names below a folder; every name is judged before anything is written.
+/// Writes the files under their names into a folder; every name is checked before anything is written.
 pub(super) fn write(folder: &Path, decks: &[(String, Vec<u8>)]) -> Result<(), Failure> {
     let paths = decks.iter().map(|(name, _)| below(folder, name)).collect::<Result<Vec<PathBuf>, Failure>>()?;
     refuse_conflicts(&paths)?;
@@ -19,7 +19,7 @@ pub(super) fn write(folder: &Path, decks: &[(String, Vec<u8>)]) -> Result<(), Fa
     }
     let whole = folder.canonicalize().map_err(|error| Failure::write(folder, error))?;
     for (path, (name, _)) in paths.iter().zip(decks) {
-        // A link in the folder may lead elsewhere.
+        // A link in the folder may lead outside.
         if !files::whole_path(path).starts_with(&whole) {
             return Err(leads_out(folder, name));
         }
@@ -36,7 +36,7 @@ pub(super) fn write(folder: &Path, decks: &[(String, Vec<u8>)]) -> Result<(), Fa
     Ok(())
 }
 
-/// The path of a file below the folder; a name that leads out of it, or names no file, is refused.
+/// The path of a file in the folder; a name that leads outside, or names no file, is rejected.
 fn below(folder: &Path, name: &str) -> Result<PathBuf, Failure> {
     let parts: Vec<Component<'_>> = Path::new(name).components().collect();
     if parts.iter().any(|part| !matches!(part, Component::Normal(_) | Component::CurDir)) {
@@ -53,7 +53,7 @@ fn leads_out(folder: &Path, name: &str) -> Failure {
     Failure::Data(format!("`{name}` leads out of `{}`: name the files relative to it", folder.display()))
 }
 
-/// Refuses two files of one name, and a file whose name is that of the folder of another.
+/// Rejects two files with the same name, and a file with the name of another's folder.
 fn refuse_conflicts(paths: &[PathBuf]) -> Result<(), Failure> {
     let mut sorted: Vec<&PathBuf> = paths.iter().collect();
     sorted.sort();
@@ -76,7 +76,7 @@ impl MadeFolders {
             match std::fs::create_dir(folder) {
                 Ok(()) => self.0.push(folder.to_owned()),
                 Err(error) if error.kind() == io::ErrorKind::AlreadyExists && folder.is_dir() => {}
-                // Roots and drives cannot be made, and are there.
+                // Roots and drives cannot be created, and exist.
                 Err(_) if folder.is_dir() => {}
                 Err(error) => return Err(Failure::write(folder, error)),
             }
@@ -88,7 +88,7 @@ impl MadeFolders {
 impl Drop for MadeFolders {
     fn drop(&mut self) {
         for folder in self.0.drain(..).rev() {
-            // One that is not empty is somebody else's by now.
+            // A folder that is not empty is used by others by now.
             let _ = std::fs::remove_dir(folder);
         }
     }

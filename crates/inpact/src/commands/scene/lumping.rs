@@ -19,11 +19,11 @@ use inpact_parser::model::Model;
 
 pub(super) struct Lumping {
     pub(super) lines: Vec<String>,
-    /// The largest relative cost so far; `None` where one has no bound.
+    /// The largest relative error so far; `None` where one has no bound.
     worst: Option<f64>,
-    /// Joints whose conductance is not known at all nodes.
+    /// Joints whose conductance is unknown at some nodes.
     unknown: Vec<String>,
-    /// Whether the current makes heat in bodies.
+    /// Whether there is Joule heat in bodies.
     is_heated: bool,
 }
 
@@ -65,12 +65,12 @@ impl Lumping {
         lumping
     }
 
-    /// Takes a relative cost.
+    /// Adds a relative error.
     fn costs(&mut self, cost: f64) {
         self.worst = self.worst.map(|worst| worst.max(cost));
     }
 
-    /// Takes the cost of a joint with one pressure, one clearance and an area.
+    /// Adds the error of a joint with one pressure, one clearance and an area.
     pub(super) fn joint(
         &mut self,
         (model, choices): (&Model, &Choices),
@@ -80,11 +80,11 @@ impl Lumping {
     ) {
         let of_area = self.areas(terminals, (pair, area));
         let varying = self.varying(model, choices, interfaces, (pair, lumped));
-        // Both are of one conductance.
+        // Both belong to one conductance.
         self.costs(of_area + varying + of_area * varying);
     }
 
-    /// The cost of one pressure and one clearance; 0 where it is not known, which is said.
+    /// The error of one pressure and one clearance; 0 where it is unknown, which is reported.
     fn varying(
         &mut self,
         model: &Model,
@@ -137,7 +137,7 @@ impl Lumping {
         }
     }
 
-    /// The cost of the area of a joint, by what of either surface has the other across.
+    /// The error of the area of a joint, by the opposite parts of both surfaces.
     fn areas(&mut self, terminals: &[Terminal], (pair, area): (&PairInterfaces, f64)) -> f64 {
         let mut largest = 0.0_f64;
         for name in [&pair.slave, &pair.master] {
@@ -165,7 +165,7 @@ impl Lumping {
         largest
     }
 
-    /// The lines, and what they come to.
+    /// The lines, and their total.
     pub(super) fn finish(self) -> Vec<String> {
         let Self { mut lines, worst, unknown, is_heated } = self;
         let mut beside = Vec::new();
@@ -192,7 +192,7 @@ fn flows() -> String {
     format!("{} and {}", Field::Temperature.flow_name(), Field::Potential.flow_name())
 }
 
-/// A share in percent, never smaller than it is.
+/// A fraction in percent, rounded up.
 fn percent(share: f64) -> String {
     match 100.0 * share {
         0.0 => "0.0 %".to_owned(),

@@ -13,22 +13,22 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 pub(super) struct Terminal {
     pub(super) name: Name,
     pub(super) nodes: BTreeSet<NodeId>,
-    /// Of a contact surface, where it meets the other one.
+    /// For a contact surface, the part opposite the other one.
     meets: Meets,
 }
 
 /// Where a contact surface meets the other one of its pair.
 enum Meets {
-    /// It is none, or nothing is known of where: its own faces count.
+    /// Not a contact surface, or unknown: its own faces are used.
     Unsaid,
-    /// Over this area, ∫ N dA at its nodes.
+    /// This area, with ∫ N dA at its nodes.
     Over(BTreeMap<NodeId, f64>, f64),
-    /// It meets several, each with a flow of its own.
+    /// It is opposite several, each with its own flow.
     Several,
 }
 
 impl Terminal {
-    /// The area over which it meets the other surface of its only pair.
+    /// The area opposite the other surface of its only pair.
     pub(super) fn area(&self) -> Option<f64> {
         if let Meets::Over(_, area) = &self.meets { Some(*area) } else { None }
     }
@@ -38,10 +38,10 @@ impl Terminal {
     }
 }
 
-/// The terminals of a deck; parts that cannot be one are noted.
+/// The terminals of a deck, with notes on parts that cannot be one.
 ///
-/// A set within a terminal is none of its own: its conditions are those of the terminal. A set that shares only some nodes with one cannot be one, since no
-/// conductance is between what touches.
+/// A set within a terminal is not a separate one: its conditions are those of the terminal. A set that shares only some nodes with one cannot be a terminal, since no
+/// conductance is defined between touching terminals.
 pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mut Vec<MeshNote>) -> Vec<Terminal> {
     let mesh = &meshed.mesh;
     let mut found = Found::default();
@@ -59,11 +59,11 @@ pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mu
         let Some(of) = of_mesh.clone().find(is_named) else { continue };
         for (name, of) in [(&pair.slave, of.clone()), (&pair.master, turned(of))] {
             let (mut nodes, mut meets) = met(mesh, &of);
-            // A surface of several pairs is one terminal, of all that any of them meets.
+            // A surface of several pairs is one terminal, the union of its opposite parts.
             if found.extend(name, &nodes) {
                 continue;
             }
-            // Where faces reach beyond the other surface into another terminal, the nodes that have it across remain.
+            // Where faces extend beyond the other surface into another terminal, only the opposite nodes remain.
             if found.sharing(&nodes).is_some() {
                 (nodes, meets) = (strictly_across(mesh, &of), Meets::Unsaid);
             }
@@ -71,7 +71,7 @@ pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mu
             found.add(Terminal { name: name.clone(), nodes, meets }, (pair.span, &note), notes);
         }
     }
-    // Sets before what is in them.
+    // Sets before their subsets.
     let mut conditions: Vec<_> =
         meshed.conditions.conditions.iter().filter(|condition| condition.on.is_some()).collect();
     conditions
@@ -79,7 +79,7 @@ pub(super) fn terminals(meshed: &MeshedDeck, interfaces: &Interfaces, notes: &mu
     for condition in conditions {
         let Some(surface) = condition.on else { continue };
         let is_of_faces = matches!(condition.kind, ConditionKind::FlowPerArea(_) | ConditionKind::Film { .. });
-        // Faces of an element set have no name that a terminal could be named by.
+        // Faces of an element set have no name for a terminal.
         if is_of_faces && ["DFLUX", "FILM"].contains(&condition.keyword) {
             continue;
         }
@@ -106,7 +106,7 @@ struct Found {
 }
 
 impl Found {
-    /// Adds nodes to a terminal that meets one more surface, where there is one of this name.
+    /// Adds nodes to a terminal that is opposite a further surface, where there is one of this name.
     fn extend(&mut self, name: &Name, nodes: &BTreeSet<NodeId>) -> bool {
         let Some(&number) = self.by_name.get(name) else { return false };
         let known = &mut self.terminals[number];
@@ -146,12 +146,12 @@ impl Found {
     }
 }
 
-/// How far beside the other surface a node may be that it meets, as a share of an edge: what rounding makes of an edge.
+/// The tolerance for a node at the edge of the other surface, as a fraction of an edge, for rounding.
 const ON_EDGE: f64 = 1e-6;
 
-/// The nodes of the slave faces of a pair that have some of the master across from them, and how an even flow through what is across is spread over them.
+/// The nodes of the slave faces of a pair that are at least partly opposite the master, and the distribution of a uniform flow over them.
 ///
-/// With one temperature at all of them every point that heat crosses has it, so that no true joint conducts more.
+/// If all of them are isothermal so is every point that heat crosses, so no true joint conducts more.
 fn met(mesh: &Mesh, pair: &MeshPair) -> (BTreeSet<NodeId>, Meets) {
     let unsaid = || (strictly_across(mesh, pair), Meets::Unsaid);
     let (SurfaceKind::Faces(slave), SurfaceKind::Faces(master)) =
@@ -172,7 +172,7 @@ fn met(mesh: &Mesh, pair: &MeshPair) -> (BTreeSet<NodeId>, Meets) {
     (nodes, Meets::Over(shares, found.area))
 }
 
-/// The slave nodes of a pair that have the master across from them.
+/// The slave nodes of a pair that are opposite the master.
 fn strictly_across(mesh: &Mesh, pair: &MeshPair) -> BTreeSet<NodeId> {
     let all = || nodes_of(mesh, pair.slave);
     let SurfaceKind::Faces(_) = mesh.surfaces[pair.master].kind else { return all() };
@@ -188,7 +188,7 @@ fn turned(pair: &MeshPair) -> MeshPair {
     MeshPair { slave: pair.master, master: pair.slave, adjust: None, clearance: None, ..pair.clone() }
 }
 
-/// Leaves of the terminals of a body mesh what was found of them here: of a contact surface the part that meets the other.
+/// Restricts the terminals of a body mesh to those found here: for a contact surface the part opposite the other.
 pub(super) fn restrict(bodies: &mut BodyMesh, mesh: &Mesh, terminals: &[Terminal]) {
     let mut restricted = std::mem::take(&mut bodies.terminals);
     for (terminal, of) in terminals.iter().zip(&mut restricted) {

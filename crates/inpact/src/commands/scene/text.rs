@@ -14,7 +14,7 @@ use inpact_parser::model::{Procedure, Regime};
 use inpact_parser::number::read_float;
 use std::collections::BTreeSet;
 
-/// Conductances below this share of the largest may be rounding.
+/// Conductances below this fraction of the largest may be rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// The sources of a scene.
@@ -64,7 +64,7 @@ impl SceneText {
         let mut written = format!("deck = {}\n", toml_text(deck));
         if regime == Regime::Transient {
             written += &format!("procedure = \"transient\"\n\n[time]\nend = {:?}\n", time.period);
-            // Increments of one length are said by the deck, others are chosen by the solver as it goes.
+            // Fixed increments are in the deck, automatic ones are chosen by the solver.
             if let Some(step) = procedure.and_then(given_increment) {
                 written += &format!("step = {step:?}\n");
             }
@@ -118,7 +118,7 @@ impl SceneText {
         self.written += &text;
     }
 
-    /// The conductances of the bodies; those below zero, which a network refuses, are named.
+    /// The conductances of the bodies; negative ones, which a network rejects, are reported.
     pub(super) fn links(
         &mut self,
         terminals: &[Terminal],
@@ -128,7 +128,7 @@ impl SceneText {
     ) {
         let roundings: Vec<f64> = lumped.iter().map(|of| ROUNDING * of.isothermal.largest()).collect();
         let within = |of: &Lumped| of.isothermal.within_bodies().map(|(a, b, _)| (a, b)).collect::<Vec<_>>();
-        // Of different fields a body may be left out.
+        // A body may be left out in one field only.
         let pairs: BTreeSet<(usize, usize)> = lumped.iter().flat_map(within).collect();
         for (a, b) in pairs {
             let (first, second) = (&terminals[a].name, &terminals[b].name);

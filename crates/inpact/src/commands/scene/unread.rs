@@ -4,7 +4,7 @@ use inpact_parser::deck::Deck;
 use inpact_parser::grammar::Grammar;
 use inpact_parser::mesh::MeshNote;
 
-/// Keywords that are taken over, or arrange the deck, or say what is printed.
+/// Keywords that are converted, or structure the deck, or request output.
 const READ: [&str; 64] = [
     "AMPLITUDE",
     "ASSEMBLY",
@@ -72,7 +72,7 @@ const READ: [&str; 64] = [
     "SURFACE INTERACTION",
 ];
 
-/// Keywords of mechanics: a scene has its pressures, shears and slip rates, and none of their causes.
+/// Keywords of mechanics: a scene has pressures, shears and slip rates, but not their causes.
 const OF_MECHANICS: [&str; 14] = [
     "CLOAD",
     "CONTACT DAMPING",

@@ -12,7 +12,7 @@ use inpact_parser::model::{Model, Reference, Regime};
 use inpact_parser::span::{SourceId, Span};
 use std::collections::BTreeSet;
 
-/// The parts of the deck that nodes of a scene stand for.
+/// The parts of the deck that nodes of a scene represent.
 pub(super) fn targets(scene: &Scene) -> Vec<Target> {
     let target = |part: &NodePart| {
         let reference = Reference { name: part.name.clone(), span: Span::new(SourceId::ROOT, 0, 0) };
@@ -24,7 +24,7 @@ pub(super) fn targets(scene: &Scene) -> Vec<Target> {
     scene.parts.values().map(target).collect()
 }
 
-/// The step whose conditions hold; reports that it is not clear which.
+/// The step whose conditions hold; reports an ambiguous one.
 pub(crate) fn step(wanted: ConditionsOfDeck, steps: usize, findings: &mut Findings) -> Option<usize> {
     let message = match (wanted.step, steps) {
         (Some(step), _) if step <= steps => return Some(step),
@@ -41,7 +41,7 @@ pub(crate) fn step(wanted: ConditionsOfDeck, steps: usize, findings: &mut Findin
     None
 }
 
-/// Puts the conditions of the deck into a scene; reports what cannot be.
+/// Adds the conditions of the deck to a scene; reports those that cannot be added.
 pub(super) fn take(
     scene: &mut Scene,
     meshed: &MeshedDeck,
@@ -87,7 +87,7 @@ pub(super) fn take(
         }
         for field in Field::ALL {
             let index = field.index();
-            // What the scene says of a field of a node has the say.
+            // The scene's own values of a field at a node take precedence.
             if says(scene, field, *node) {
                 continue;
             }
@@ -96,7 +96,7 @@ pub(super) fn take(
                 conditions.initial.entry(*node).or_insert(initial);
             }
             match (&stated.fixed[index], &stated.source[index]) {
-                // What is held takes up whatever flows there.
+                // A held node absorbs any flow.
                 (Some(fixed), _) => drop(conditions.fixed.insert(*node, fixed.clone())),
                 (None, Some(source)) => drop(conditions.sources.insert(*node, source.clone())),
                 (None, None) => {}
@@ -117,7 +117,7 @@ pub(super) fn take(
     Ok(())
 }
 
-/// Whether the scene itself holds or feeds a field of a node.
+/// Whether the scene itself gives a fixed value or source of a field at a node.
 fn says(scene: &Scene, field: Field, node: u32) -> bool {
     let conditions = scene.conditions(field);
     conditions.fixed.contains_key(&node) || conditions.sources.contains_key(&node)

@@ -107,7 +107,7 @@ pub(super) fn findings(failure: &Error, scene: &Scene, (name, after): (&str, Opt
 }
 
 fn floating_help(of: Option<Field>, field: &str, scene: &Scene) -> String {
-    // A current is steady at every instant: there is no capacity for potentials.
+    // Currents are quasi-static: there is no capacity for potentials.
     let capacity = if scene.is_transient() && of != Some(Field::Potential) { ", a capacity" } else { "" };
     format!(
         "give one of these nodes a fixed {field}{capacity}, or a conductance to a body that has one; an open gap of zero conductance is no path"

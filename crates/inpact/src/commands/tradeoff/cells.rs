@@ -9,17 +9,17 @@ pub(super) fn line<const COLUMNS: usize>(cells: &[String; COLUMNS], widths: [usi
     format!("{}\n", line.trim_end())
 }
 
-/// The mark of what is on the Pareto front.
+/// The marker of the Pareto front.
 pub(super) fn star(is_on_front: bool) -> String {
     if is_on_front { "*" } else { "" }.to_owned()
 }
 
-/// An error as a part of something, in two digits.
+/// A relative error, in two digits.
 pub(super) fn error(error: f64) -> String {
     if error == 0.0 { "0".to_owned() } else { format!("{error:.1e}") }
 }
 
-/// Refused subjects grouped by reason: all that have the same one, and the reason.
+/// Rejected subjects grouped by reason.
 pub(super) fn by_reason<N: Clone>(refused: &[(N, String)]) -> Vec<(Vec<N>, &str)> {
     let mut reasons: Vec<(Vec<N>, &str)> = Vec::new();
     for (name, reason) in refused {

@@ -1,6 +1,6 @@
 //! The Pareto front: points that no other dominates.
 
-/// For each pair of a time and an error, whether it is on the front: no other is as fast and as exact, and better in one of the two.
+/// For each pair of a time and an error, whether it is on the front: no other is as fast and as accurate, and better in one of the two.
 pub(super) fn front(places: &[(f64, f64)]) -> Vec<bool> {
     let is_beaten = |(time, error): &(f64, f64)| {
         let beats = |(other_time, other_error): &(f64, f64)| {

@@ -2,9 +2,9 @@
 
 use std::time::Instant;
 
-/// Runs all of them in turns, round after round, and gives the least time of each, in seconds.
+/// Runs all of them in interleaved rounds, and returns the minimum time of each, in seconds.
 ///
-/// In turns, so that what else the machine does in the meantime falls on all alike.
+/// Interleaved, so that other load on the machine affects all alike.
 pub(super) fn least_times(rounds: u32, runs: &mut [Box<dyn FnMut() + '_>]) -> Vec<f64> {
     let mut least = vec![f64::INFINITY; runs.len()];
     for _ in 0..rounds {

@@ -17,7 +17,7 @@ use crate::threads::with_threads;
 use inpact_diagnostics::visible::visible;
 use std::path::Path;
 
-/// Measures on a scene; `None` after saying what is wrong with it, as `solve` says it.
+/// Measures on a scene; `None` after reporting its faults, as `solve` does.
 pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
     with_threads(0, || measured_on_threads(path, arguments))
 }

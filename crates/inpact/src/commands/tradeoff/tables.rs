@@ -18,7 +18,7 @@ use inpact_diagnostics::visible::visible;
 use measure::Measured;
 use std::path::Path;
 
-/// Measures on a deck and its node table; `None` after saying what is wrong with them.
+/// Measures on a deck and its node table; `None` after reporting their faults.
 pub(super) fn measured(table: &EvaluableArguments, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
     table.with_threads(|| measured_on_threads(table, arguments))
 }
@@ -44,7 +44,7 @@ fn measured_on_threads(table: &EvaluableArguments, arguments: &TradeoffArguments
 /// # Errors
 /// Rows that cannot be read again; a deck of which no table varies on them.
 pub(crate) fn diagram(scene: &mut Evaluable, nodes_path: &Path) -> Result<(Chart, String), Failure> {
-    /// The most rows, and the rounds: a report is not worth the time of a measurement of its own.
+    /// The maximum number of rows, and the rounds: fewer than in a separate measurement.
     const SAMPLE: u64 = 100_000;
     const ROUNDS: u32 = 7;
     let measured = measured_tables(scene, nodes_path, SAMPLE, ROUNDS)?;

@@ -9,7 +9,7 @@ use crate::commands::tradeoff::cells::file_name;
 
 /// The diagram of all solvers.
 pub(super) fn chart(measured: &Measured, prepared: &SolvableScene) -> Chart {
-    // Entries of the front are drawn last: they must not be hidden.
+    // Points of the front are drawn last, so that they are not hidden.
     let (front, others): (Vec<&Entry>, Vec<&Entry>) = measured.entries.iter().partition(|entry| entry.on_front);
     let points = others.into_iter().chain(front).map(|entry| {
         let (name, methods) = (name(entry.subject), &entry.found.methods);

@@ -16,23 +16,23 @@ pub(super) struct Measured {
     pub(super) entries: Vec<Entry>,
     /// Subjects that did not solve the scene, with the reason.
     pub(super) failed: Vec<(Subject, String)>,
-    /// The number of unknowns of the usual solver in all fields together.
+    /// The total number of unknowns of the default solver in all fields.
     pub(super) unknowns: usize,
 }
 
 /// A solver at a tolerance.
 pub(super) struct Entry {
     pub(super) subject: Subject,
-    /// The least time, in seconds.
+    /// The minimum time, in seconds.
     pub(super) time: f64,
-    /// The least time of each of its parts, in seconds.
+    /// The minimum time of each of its phases, in seconds.
     pub(super) phases: Phases,
     /// From the reference, over all states.
     pub(super) distance: Distance,
-    /// It is the reference itself: its distance shows nothing.
+    /// It is the reference itself, so its distance is meaningless.
     pub(super) is_reference: bool,
     pub(super) found: Found,
-    /// No other is as fast and as exact in the values of nodes, and better in one of the two.
+    /// It is on the Pareto front: no other is as fast and as accurate in the values of nodes, and better in one of the two.
     pub(super) on_front: bool,
 }
 
@@ -41,7 +41,7 @@ pub(super) struct Entry {
 pub(super) struct Found {
     /// The methods in the order in which they were tried.
     pub(super) methods: Vec<Method>,
-    /// Methods that were given up, with the field and the reason.
+    /// Methods that failed, with the field and the reason.
     pub(super) given_up: Vec<(Field, Method, String)>,
     /// The largest of the last linear problems of all fields.
     pub(super) residual: f64,
@@ -58,10 +58,10 @@ pub(super) struct Found {
     pub(super) factor_bytes: usize,
 }
 
-/// Finds the errors of every solver, then times them in turns.
+/// Computes the errors of every solver, then times them in interleaved rounds.
 ///
 /// # Errors
-/// The failure of the usual solver: such a scene has no solution to compare with.
+/// The failure of the default solver: such a scene has no solution to compare with.
 pub(super) fn measure(prepared: &SolvableScene, problem: &Problem<'_>, rounds: u32) -> Result<Measured, Failed> {
     let usual = USUAL.solve(problem)?;
     let reference = reference(prepared, problem, &usual);
@@ -172,7 +172,7 @@ impl Found {
         }
     }
 
-    /// The solver, and those it was replaced by.
+    /// The solver, and its fallbacks.
     pub(super) fn methods_text(&self) -> String {
         let names: Vec<String> = self.methods.iter().map(ToString::to_string).collect();
         names.join(", then ")
@@ -188,7 +188,7 @@ mod tests {
     use super::*;
     use inpact_network::linear::{NoSolution, Quality, Shortcoming};
 
-    /// A report of a method that was reached by giving up others.
+    /// A report of a method reached as a fallback.
     fn report(method: Method, given_up: &[Method]) -> LinearReport {
         let why = Shortcoming::NoSolution(NoSolution::Iterations);
         LinearReport {

@@ -20,7 +20,7 @@ pub(super) struct Solved {
     pub(super) work: Work,
 }
 
-/// The failure of a solver, and the time of the last state before.
+/// The failure of a solver, and the time of the last state before it.
 pub(super) struct Failed {
     pub(super) why: Error,
     pub(super) after: Option<f64>,
@@ -42,10 +42,10 @@ const EXACT: Subject = Subject { method: Method::Elimination, tolerance: LAST_DI
 const METHODS: [Method; 3] = [Method::Direct, Method::Mixed, Method::Iterative];
 const TOLERANCES: [f64; 5] = [LAST_DIGIT, 1e-12, 1e-9, 1e-6, 1e-3];
 
-/// Up to so many nodes the reference is the elimination: in three dimensions that takes it a quarter of a second, and some times as long where Newton's iteration needs several.
+/// Up to this number of nodes the reference is elimination: in three dimensions that takes a quarter of a second, and several times as long with Newton's iteration.
 const MOST_NODES: usize = 1000;
 
-/// The time since this was first asked, for the phases of solvers.
+/// The time since the first call, for the phases of solvers.
 fn clock() -> Duration {
     static START: LazyLock<Instant> = LazyLock::new(Instant::now);
     START.elapsed()
@@ -56,7 +56,7 @@ pub(super) fn subjects() -> impl Iterator<Item = Subject> {
     METHODS.into_iter().flat_map(|method| TOLERANCES.map(|tolerance| Subject { method, tolerance }))
 }
 
-/// The reference for a scene of which the usual solution is known.
+/// The reference for a scene whose default solution is known.
 pub(super) fn reference(prepared: &SolvableScene, problem: &Problem<'_>, usual: &Solved) -> Reference {
     let nodes = problem.scene().nodes.len();
     let direct = |reason| Reference { subject: USUAL, reason, states: usual.states.clone() };
@@ -81,7 +81,7 @@ impl Failed {
 }
 
 impl Reference {
-    /// Whether a method at a tolerance is the reference itself; an elimination has no use for a tolerance.
+    /// Whether a method at a tolerance is the reference itself; elimination has no tolerance.
     pub(super) fn is_found_by(&self, method: Option<Method>, tolerance: f64) -> bool {
         let Subject { method: own, tolerance: own_tolerance } = self.subject;
         method == Some(own) && (own == Method::Elimination || tolerance == own_tolerance)
@@ -89,7 +89,7 @@ impl Reference {
 }
 
 impl Subject {
-    /// Solves a scene as far as it is measured, with nothing kept from before.
+    /// Solves a scene as far as it is measured, from scratch.
     pub(super) fn solve(self, problem: &Problem<'_>) -> Result<Solved, Failed> {
         let mut equations = Equations::new(problem, self.method, self.tolerance).timed_by(clock);
         let mut states = Vec::new();
@@ -103,7 +103,7 @@ impl Subject {
         }
     }
 
-    /// Its tolerance, as a person would say it.
+    /// Its tolerance in words.
     pub(super) fn tolerance_text(self) -> String {
         if self.tolerance == LAST_DIGIT { "last digit".to_owned() } else { format!("{:e}", self.tolerance) }
     }

@@ -28,7 +28,7 @@ pub(super) fn chart(measured: &Measured, names: Names<'_>) -> Chart {
     }
 }
 
-/// A time in about three digits.
+/// A time with about three digits.
 fn short(time: f64) -> String {
     match time {
         ..10.0 => format!("{time:.2}"),

@@ -7,14 +7,14 @@ use crate::commands::tradeoff::rounds::least_times;
 use inpact_evaluation::numbers::{CompensatedSum, Scaled, ulp};
 use inpact_evaluation::table::ErrorBound;
 
-/// Fewer rows than that are repeated, so that a run takes long enough to be timed.
+/// Fewer rows are repeated, so that a run is long enough to be timed.
 const LEAST_ROWS: usize = 1 << 16;
 
 /// Measurements on a deck and its node table.
 pub(super) struct Measured {
     /// Rows of the node table.
     pub(super) rows: u64,
-    /// One of so many was taken.
+    /// The sampling stride.
     pub(super) one_of: u64,
     pub(super) rounds: u32,
     /// The time of `eval` for a row in all.
@@ -26,7 +26,7 @@ pub(super) struct Measured {
 /// The modes on one table, or on all.
 pub(super) struct Group {
     pub(super) name: String,
-    /// Rows that reach it, and rows of one run: the same, repeated.
+    /// Rows that reach it, and rows of one run, which repeats them.
     pub(super) rows: usize,
     pub(super) rows_of_a_run: usize,
     /// Rows of the table itself; of all tables together.
@@ -34,7 +34,7 @@ pub(super) struct Group {
     /// The time that a copy takes to move the coordinates and the value of a row, in ns.
     pub(super) copy: f64,
     pub(super) entries: Vec<Entry>,
-    /// The modes that do not serve the table, and why.
+    /// The modes that do not support the table, and why.
     pub(super) refused: Vec<(&'static str, String)>,
 }
 
@@ -47,28 +47,28 @@ pub(super) struct Entry {
     /// The least time of a row, in ns.
     pub(super) time: f64,
     pub(super) errors: Errors,
-    /// The largest error there can be on any row.
+    /// The error bound.
     pub(super) bound: ErrorBound,
     /// Read and written for a row.
     pub(super) bytes: f64,
-    /// No other mode is as fast and as exact, and better in one of the two.
+    /// It is on the Pareto front: no other mode is as fast and as accurate, and better in one of the two.
     pub(super) on_front: bool,
 }
 
 /// Differences from the exact value.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Errors {
-    /// As a part of the largest value of the table.
+    /// Relative to the largest value of the table.
     pub(super) largest: f64,
     pub(super) rms: f64,
-    /// The largest as a part of the exact value of its row.
+    /// The largest relative to the exact value of its row.
     pub(super) pointwise: f64,
     /// In units in the last place of the exact value.
     pub(super) largest_ulp: f64,
     pub(super) rms_ulp: f64,
 }
 
-/// Times every mode on every table in turns, then finds its errors.
+/// Times every mode on every table in interleaved rounds, then computes its errors.
 pub(super) fn measure(sample: &Sample, rounds: u32) -> Measured {
     let repeated: Vec<Subject> = sample.subjects.iter().map(repeated).collect();
     let mut groups: Vec<Group> =
@@ -104,7 +104,7 @@ fn group(subject: &Subject, repeated: &Subject, rounds: u32) -> Group {
     for (_, prepared) in &mut modes {
         runs.push(Box::new(|| prepared.run()));
     }
-    // The first round fills caches and is not counted.
+    // The first round warms caches and is not counted.
     least_times(1, &mut runs);
     let times: Vec<f64> = least_times(rounds, &mut runs).iter().map(|time| time * 1e9 / rows as f64).collect();
     drop(runs);
@@ -161,7 +161,7 @@ fn errors(subject: &Subject, prepared: &Prepared<'_>) -> Errors {
     errors
 }
 
-/// The modes over all tables, each row in its own; a table that a mode does not serve is evaluated in `full`.
+/// The modes over all tables, each row in its own; a table that a mode does not support is evaluated in `full`.
 fn all_of(groups: &[Group]) -> Group {
     let rows: usize = groups.iter().map(|group| group.rows).sum();
     let share = |group: &Group| group.rows as f64 / rows as f64;

@@ -10,27 +10,27 @@ use std::hint::black_box;
 
 pub(super) struct Mode {
     pub(super) name: &'static str,
-    /// Makes it ready for a table, or says why it does not serve that table.
+    /// Prepares it for a table, or returns why it does not support that table.
     pub(super) of: for<'a> fn(&'a Subject) -> Result<Prepared<'a>, String>,
 }
 
-/// A mode made ready for a table and its rows: f64 columns through a function of blocks.
+/// A mode prepared for a table and its rows: f64 columns through a block function.
 pub(super) struct Prepared<'a> {
     columns: Vec<&'a [f64]>,
     of_block: OfBlock<'a>,
     output: Vec<f64>,
     pub(super) form: String,
-    /// The largest error there can be.
+    /// The error bound.
     pub(super) bound: ErrorBound,
 }
 
-/// Finds the values of a block of rows from its coordinates, a column an axis.
+/// Computes the values of a block of rows from its coordinates, one column per axis.
 type OfBlock<'a> = Box<dyn FnMut(&[&[f64]], &mut [f64]) + 'a>;
 
-/// The least exact that are timed beside [`MODES`] have these cells along each axis, by how many axes there are; the finest that stay in cache first.
+/// The coarsest grids timed in addition to [`MODES`] have these cells along each axis, by the number of axes; the finest that fit into cache first.
 const GRIDS: [[usize; 3]; 3] = [[128, 32, 8], [30, 12, 4], [12, 6, 2]];
 
-/// All modes, most exact first.
+/// All modes, most accurate first.
 pub(super) const MODES: &[Mode] = &[
     Mode {
         name: "reference",
@@ -63,7 +63,7 @@ pub(super) const MODES: &[Mode] = &[
     Mode { name: "grid coarse", of: |subject| grid(subject, 2) },
 ];
 
-/// Rows are evaluated in blocks of so many, as the batches of an evaluation have.
+/// The block size in rows, as in an evaluation.
 const ROWS_OF_A_BLOCK: usize = 1024;
 
 impl<'a> Prepared<'a> {
@@ -77,12 +77,12 @@ impl<'a> Prepared<'a> {
         each_block(&self.columns, &mut self.output, &mut self.of_block);
     }
 
-    /// The value of a row, from the run before.
+    /// The value of a row, from the previous run.
     pub(super) fn value(&self, row: usize) -> f64 {
         self.output[row]
     }
 
-    /// The coordinate of a row as its columns have it; NaN along an axis that makes no difference.
+    /// The coordinate of a row from its columns; NaN along an axis that the value does not depend on.
     pub(super) fn coordinate(&self, axis: usize, row: usize) -> f64 {
         self.columns[axis].get(row).copied().unwrap_or(f64::NAN)
     }
@@ -107,7 +107,7 @@ fn exact_grid(subject: &Subject) -> Result<Prepared<'_>, String> {
     resampled(subject, &cells)
 }
 
-/// The grid of one of the usual sizes.
+/// The grid of one of the standard sizes.
 fn grid(subject: &Subject, size: usize) -> Result<Prepared<'_>, String> {
     let axes = subject.axes();
     let cells = GRIDS.get(axes.saturating_sub(2)).map_or(1, |sizes| sizes[size]);
@@ -125,7 +125,7 @@ fn each_block(columns: &[&[f64]], output: &mut [f64], mut of_block: impl FnMut(&
     black_box(output);
 }
 
-/// A copy of the same columns: what any mode must move at least.
+/// A copy of the same columns: the minimum memory traffic of any mode.
 pub(super) struct Copied {
     columns: Vec<Vec<f64>>,
     output: Vec<f64>,

@@ -14,11 +14,11 @@ use std::time::{Duration, Instant};
 
 /// A table with the coordinates of the rows that reach it.
 pub(super) struct Subject {
-    /// The interaction and what the table is.
+    /// The interaction and the kind of the table.
     pub(super) name: String,
-    /// The table as it is evaluated: folded along the axes on which all rows have one value.
+    /// The table as evaluated: folded along the axes on which all rows have one value.
     pub(super) table: PiecewiseTable,
-    /// One column an axis; of axes that make no difference the columns are empty.
+    /// One column per axis; empty for axes that the value does not depend on.
     pub(super) columns: Vec<Vec<f64>>,
 }
 
@@ -28,17 +28,17 @@ pub(super) struct Sample {
     pub(super) subjects: Vec<Subject>,
     /// The number of rows of the node table.
     pub(super) rows: u64,
-    /// One of so many was taken.
+    /// The sampling stride.
     pub(super) one_of: u64,
     pub(super) whole: WholeRow,
 }
 
-/// The least times of `eval` for a row of the node table, on as many threads as it has, ns.
+/// The minimum times of `eval` per row of the node table, on its default number of threads, ns.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct WholeRow {
-    /// Reading it and looking through it.
+    /// Reading and survey.
     pub(super) read: f64,
-    /// All laws, their tables with them.
+    /// All laws, including their tables.
     pub(super) laws: f64,
     /// Writing its results as comma-separated values.
     pub(super) write: f64,
@@ -56,13 +56,13 @@ impl Subject {
         self.columns.iter().map(Vec::len).max().unwrap_or(0)
     }
 
-    /// The number of axes that make a difference.
+    /// The number of axes that the value depends on.
     pub(super) fn axes(&self) -> usize {
         self.columns.iter().filter(|column| !column.is_empty()).count()
     }
 }
 
-/// Evaluates the node table, and keeps, of at most `most` of its rows, the coordinates that tables in force are read at.
+/// Evaluates the node table, and keeps, for at most `most` of its rows, the coordinates at which tables in force are evaluated.
 pub(super) fn gather(
     evaluable: &mut Evaluable,
     nodes_path: &Path,
@@ -97,7 +97,7 @@ pub(super) fn gather(
     Ok(Sample { subjects: subjects.collect(), rows: plan.rows, one_of, whole })
 }
 
-/// Evaluates all rows and writes their results to nowhere; gives how long the laws took, and the writing.
+/// Evaluates all rows and discards the written results; returns the times of laws and writing.
 fn timed(
     (model, plan, choices): (&Model, &Plan, &Choices),
     mut rows: GivenBack,
