@@ -239,7 +239,7 @@ impl Quantity {
     }
 }
 
-/// The least and the greatest of some numbers, none of which is NaN; `None` where there is none.
+/// Minimum and maximum of some numbers, none of which is NaN; `None` where there is none.
 pub(crate) fn range(numbers: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     numbers.fold(None, |range, x| {
         let (least, greatest) = range.unwrap_or((x, x));

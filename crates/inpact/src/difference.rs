@@ -3,7 +3,7 @@
 use similar::TextDiff;
 use std::time::Duration;
 
-/// The longest search for the shortest diff; a longer one is given then. Files with a million changes need hours otherwise.
+/// The time limit of the search for the shortest diff, after which a longer one is returned: files with a million changes would need hours.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 /// The unified diff of a file; empty when nothing changes.

@@ -253,7 +253,7 @@ impl Deck {
         Ok(EvaluatedTo { schema: records.schema(), findings: found, notes: notes.collect() })
     }
 
-    /// Findings as the configuration has them; an error where one of them is.
+    /// Findings with the configured severities; an error where one of them is.
     fn judged(&self, findings: Findings, otherwise: &str) -> Result<Vec<Diagnostic>, Error> {
         let found = self.settings.apply(findings.into_list());
         if has_errors(&found) { Err(Error::of_first(otherwise, found)) } else { Ok(found) }
@@ -271,7 +271,7 @@ impl Deck {
         Ok(concerning.into_iter().filter(|found| found.severity == Severity::Warning).collect())
     }
 
-    /// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.
+    /// The reason why there is nothing to evaluate: missing columns, or other obstacles.
     fn nothing_to_evaluate(&self, plan: &Plan) -> Error {
         let mut findings = Findings::new(TABLE);
         plan.report_missing(&mut findings);

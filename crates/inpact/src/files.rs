@@ -29,7 +29,7 @@ const PIECE: usize = 64 * 1024;
 /// The name of standard input and standard output.
 pub(crate) const STANDARD_STREAM: &str = "-";
 
-/// Pushes a file into a scanner, piece by piece; standard input for `-`.
+/// Pushes a file into a scanner in pieces; standard input for `-`.
 pub(crate) fn push_all(path: &Path, scanner: &mut Scanner<'_>) -> Result<(), Failure> {
     let mut input = open(path)?;
     let mut piece = vec![0; PIECE];
@@ -46,7 +46,7 @@ pub(crate) fn push_all(path: &Path, scanner: &mut Scanner<'_>) -> Result<(), Fai
     }
 }
 
-/// A line that goes on for longer than any program could mean is kept whole until it ends: without a limit it takes all memory.
+/// A line is kept whole until it ends: without a limit an endless line would take all memory.
 fn refuse_endless_line(path: &Path, scanner: &Scanner<'_>) -> Result<(), Failure> {
     if scanner.unfinished() <= LONGEST_LINE {
         return Ok(());
@@ -65,7 +65,7 @@ pub(crate) fn open(path: &Path) -> Result<Box<dyn Read>, Failure> {
     Ok(Box::new(whole::bounded(file, metadata.as_ref())))
 }
 
-/// Whether what is at a path can be read only once: standard input, a pipe or a device.
+/// Whether a path can be read only once: standard input, a pipe or a device.
 pub(crate) fn is_stream(path: &Path) -> bool {
     let is_special = |metadata: Metadata| !metadata.is_file() && !metadata.is_dir();
     path.as_os_str() == STANDARD_STREAM || path.metadata().is_ok_and(is_special)
@@ -79,7 +79,7 @@ pub(crate) fn refuse_second_stream(paths: &[PathBuf]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Marks by which a file is known as the one that was read.
+/// Metadata that identify a file as the one that was read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Stamp {
     modified: Option<SystemTime>,
@@ -87,7 +87,7 @@ pub(crate) struct Stamp {
 }
 
 impl Stamp {
-    /// `None` for what is not there.
+    /// `None` for a missing file.
     pub(crate) fn of(path: &Path) -> Option<Self> {
         let found = path.metadata().ok()?;
         Some(Self { modified: found.modified().ok(), length: found.len() })
@@ -105,9 +105,9 @@ pub(crate) fn open_file(path: &Path) -> Result<File, Failure> {
     Ok(file)
 }
 
-/// Refuses results that would be written over a file that this run has read, or over one another; before the work is done, since they are refused again when they are written.
+/// Rejects results that would overwrite a file that this run has read, or one another, before the work is done; they are checked again when they are written.
 ///
-/// A target that is no regular file, such as a device, takes several results.
+/// A target that is not a regular file, such as a device, takes several results.
 pub(crate) fn check_targets(targets: &[Option<&Path>]) -> Result<(), Failure> {
     let mut taken: Vec<PathBuf> = Vec::new();
     let is_file = |target: &&Path| {
@@ -124,14 +124,14 @@ pub(crate) fn check_targets(targets: &[Option<&Path>]) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Takes down files that are named to be read, so that no result is written over one of them.
+/// Records files that are named as inputs, so that no result overwrites one of them.
 pub(crate) fn name_as_inputs<P: AsRef<Path>>(paths: &[P]) {
     paths.iter().map(AsRef::as_ref).filter(|path| path.as_os_str() != STANDARD_STREAM).for_each(name_as_input);
 }
 
-/// A path that identifies a file, be it there or not; links are followed, also those that lead to nothing yet.
+/// A path that identifies a file, existing or not; links are resolved, including dangling ones.
 pub(crate) fn whole_path(path: &Path) -> PathBuf {
-    /// More than any system follows.
+    /// More than any system resolves.
     const MOST_LINKS: usize = 40;
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {
@@ -152,7 +152,7 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Waits until what was written to a file is stored.
+/// Syncs a file to disk.
 fn sync_file(file: &File) -> io::Result<()> {
     match file.sync_all() {
         Err(error) if cannot_sync(&error) => Ok(()),
@@ -167,14 +167,14 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
     File::open(folder).map_or(Ok(()), |folder| sync_file(&folder))
 }
 
-/// Waits until the names in a folder are stored: only Unix has a way to ask for it.
+/// Syncs the entries of a folder to disk: only Unix supports it.
 #[cfg(not(unix))]
 #[allow(clippy::unnecessary_wraps)]
 fn sync_folder(_folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Some file systems do not know what it is to be stored.
+/// Some file systems do not support syncing.
 fn cannot_sync(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported)
 }

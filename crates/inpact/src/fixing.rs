@@ -16,7 +16,7 @@ use inpact_validation::{Diagnostic, Fix, FixSafety, apply, fixable};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The most rounds of reading the decks again: a fix may bring another finding to light, but not for ever.
+/// The maximum number of rounds: a fix may reveal another finding, but not endlessly.
 const MOST_ROUNDS: usize = 10;
 
 /// The fixes to apply, and the files.
@@ -30,17 +30,17 @@ pub(crate) struct FixSelection {
     pub(crate) purpose: Purpose,
 }
 
-/// The files to mend among those that a deck includes.
+/// The included files that may be changed.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum FixReach {
-    /// Those below its folder, and those that are named themselves.
+    /// Those below its folder, and those that are named.
     #[default]
     BelowDeck,
     /// All of them.
     EveryIncluded,
 }
 
-/// Purposes of mending.
+/// Purposes of fixing.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(crate) enum Purpose {
     Write,
@@ -48,7 +48,7 @@ pub(crate) enum Purpose {
     Show,
 }
 
-/// A deck to mend.
+/// A deck to fix.
 pub(crate) struct Subject<'a> {
     pub(crate) path: &'a Path,
     pub(crate) settings: &'a Settings,
@@ -65,11 +65,11 @@ pub(crate) enum Need {
 
 #[derive(Debug, Default)]
 pub(crate) struct Mended {
-    /// The number of findings mended.
+    /// The number of findings fixed.
     pub(crate) findings: usize,
-    /// The findings left although they have a fix, and why.
+    /// The remaining findings that have a fix, with the reason.
     pub(crate) left: Vec<String>,
-    /// Decks that could not be read any more, and what cannot be written back.
+    /// Decks that could not be read again, and files that cannot be written back.
     pub(crate) failures: Vec<Failure>,
 }
 
@@ -82,7 +82,7 @@ impl FixSelection {
     }
 }
 
-/// Whether a deck has anything to mend.
+/// Whether a deck has anything to fix.
 pub(crate) fn need_of(deck: &LocatedDeck, settings: &Settings, selection: &FixSelection) -> Need {
     let found = findings(deck, settings);
     if found.iter().any(|found| selection.selects(found).is_some()) { Need::Mending } else { Need::Nothing }
@@ -94,7 +94,7 @@ fn findings(LocatedDeck { deck, .. }: &LocatedDeck, settings: &Settings) -> Vec<
     settings.apply(fixable(deck, settings.grammar, &model, &problems))
 }
 
-/// Applies the fixes of all decks to the files that are held.
+/// Applies the fixes of all decks to the files in memory.
 pub(crate) fn mend(subjects: &mut [Subject<'_>], held: &HeldFiles, selection: &FixSelection) -> Mended {
     let named: BTreeSet<PathBuf> = subjects.iter().map(|subject| files::whole_path(subject.path)).collect();
     let mut mended = Mended::default();
@@ -147,7 +147,7 @@ pub(crate) fn mend(subjects: &mut [Subject<'_>], held: &HeldFiles, selection: &F
     mended
 }
 
-/// Says what was left in which file and why; each file once.
+/// Reports the remaining findings of each file and the reason; each file once.
 fn explain(subjects: &[Subject<'_>], left: Vec<BTreeMap<PathBuf, Left>>, held: &HeldFiles) -> Vec<(Reason, String)> {
     let mut by_place: BTreeMap<PathBuf, (Left, &Path)> = BTreeMap::new();
     for (subject, left) in subjects.iter().zip(left) {

@@ -19,7 +19,7 @@ use inpact_parser::span::SourceId;
 use inpact_validation::check;
 use std::path::{Path, PathBuf};
 
-/// A deck with the places of its files, which its own names for them may not give: they may be no text.
+/// A deck with the paths of its files, which may not be representable as text.
 pub(crate) struct LocatedDeck {
     pub(crate) deck: Deck,
     /// The paths of its files by source, the deck itself first; links followed.
@@ -52,7 +52,7 @@ impl ReadDeck {
         Self { deck, places, model, problems }
     }
 
-    /// The findings of a check, as the configuration has them.
+    /// The findings of a check, with the configured severities.
     pub(crate) fn check(&self, settings: &Settings) -> Vec<Diagnostic> {
         settings.apply(check(&self.deck, settings.grammar, &self.model, &self.problems))
     }
@@ -63,7 +63,7 @@ pub(crate) fn read_deck(path: &Path, keep: Keep, settings: &Settings) -> Result<
     Ok(read_located_deck(path, keep, settings, None)?.deck)
 }
 
-/// Reads the deck at `path` and what it includes; from files that are held, if there are any: one that is not yet is read and held then.
+/// Reads the deck at `path` and the files it includes; from files in memory, if there are any, otherwise they are read and kept.
 pub(crate) fn read_located_deck(
     path: &Path,
     keep: Keep,
@@ -87,7 +87,7 @@ pub(crate) fn read_located_deck(
     Ok(LocatedDeck { deck, places: included.places })
 }
 
-/// Pushes the file at `path`, which messages call `name`.
+/// Pushes the file at `path`, named `name` in messages.
 fn push(
     path: &Path,
     name: &Path,
@@ -106,7 +106,7 @@ fn push(
 struct FilesOnDisk<'a> {
     /// `None` for standard input.
     deck: Option<&'a Path>,
-    /// The whole path of the deck's folder.
+    /// The canonical path of the deck's folder.
     own_folder: PathBuf,
     settings: &'a Settings,
     held: Option<&'a HeldFiles>,
@@ -134,7 +134,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
 
     fn excerpts(&self, file: &FoundFile) -> Excerpts {
         let is_below = |folder: &PathBuf| file.path.starts_with(folder);
-        // Whoever names a root, or a folder for included files, means what lies there.
+        // A named root, or folder for included files, permits its files.
         let is_meant = !self.settings.include_roots.is_empty()
             || is_below(&self.own_folder)
             || self.settings.named_include_dirs.iter().any(is_below);
@@ -143,7 +143,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
 
     fn find(&mut self, name: &str, from: &str) -> Result<FoundFile, String> {
         if name.contains(char::REPLACEMENT_CHARACTER) {
-            // It replaces bytes that are no text: a file whose name has the character itself is another one.
+            // It replaces bytes that are not text: a file whose name contains the character itself is another one.
             return Err("its name is not UTF-8: rename the file".to_owned());
         }
         let name = &expand(name, |variable| std::env::var(variable).ok())?;
@@ -173,7 +173,7 @@ impl IncludedFiles for FilesOnDisk<'_> {
     }
 
     fn read(&mut self, file: &FoundFile, scanner: &mut Scanner<'_>) -> Result<(), String> {
-        // By its place: the name is for people, and need not be the whole truth.
+        // By its path: the name is for display, and may be inexact.
         let pushed = push(&file.path, Path::new(&file.name), (self.held, self.settings), scanner);
         pushed.map_err(|failure| failure.about(Path::new(&file.name)).to_string())?;
         self.places.push(file.path.clone());
@@ -186,7 +186,7 @@ impl<'a> FilesOnDisk<'a> {
         self.settings.known_content(path).is_some() || path.exists()
     }
 
-    /// The folders that a name may be relative to, in the order in which they are searched.
+    /// The folders to which a name may be relative, in search order.
     fn folders<'b>(&self, from: &'b str) -> impl Iterator<Item = &'b Path> + Clone + use<'a, 'b>
     where
         'a: 'b,
@@ -199,7 +199,7 @@ impl<'a> FilesOnDisk<'a> {
     }
 }
 
-/// Puts the values of environment variables into the name of a file: `$NAME` and `${NAME}` (S-52).
+/// Expands environment variables in a file name: `$NAME` and `${NAME}` (S-52).
 ///
 /// # Errors
 /// A variable that is not set.
@@ -214,7 +214,7 @@ fn expand(name: &str, value_of: impl Fn(&str) -> Option<String>) -> Result<Strin
             None => name.split_at(name.find(|character| !is_part(character)).unwrap_or(name.len())),
         };
         if variable.is_empty() {
-            // A dollar by itself is a character like any other.
+            // A lone dollar is an ordinary character.
             expanded.push('$');
         } else {
             expanded += &value_of(variable).ok_or_else(|| format!("the environment has no variable `{variable}`"))?;

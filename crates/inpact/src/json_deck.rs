@@ -4,10 +4,10 @@ use inpact_parser::grammar::{Dialect, Grammar, Release};
 use inpact_parser::json::{self, View};
 use inpact_parser::model::{self, Model};
 
-/// The language that decks are written in where it can say them.
+/// The default language of written decks.
 pub(crate) const NEWEST: (Dialect, Release) = (Dialect::Abaqus, Release::NEWEST);
 
-/// The files that JSON says.
+/// The files of a JSON document.
 pub(crate) struct Files {
     /// Their names and bytes; the deck itself first.
     pub(crate) files: Vec<(String, Vec<u8>)>,
@@ -33,9 +33,9 @@ pub(crate) fn files(text: &str) -> Result<Files, String> {
     }
 }
 
-/// The deck that says this in Abaqus' newest language; where none does, in the one that the JSON was read in.
+/// The deck in Abaqus' newest language; if that cannot express it, in the language with which the JSON was read.
 ///
-/// Before release 2024 integers divide as integers (S-60), and CalculiX has other columns.
+/// Before release 2024 integers have integer division (S-60), and CalculiX has other columns.
 fn print(model: &Model) -> Result<(String, (Dialect, Release)), String> {
     let newest = match model::print(model, Grammar::builtin()) {
         Ok(deck) => return Ok((deck, NEWEST)),

@@ -38,16 +38,16 @@ pub struct ContactColumns<'a> {
 /// One of the tables of a conductance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Against {
-    /// Against clearance: what holds while open.
+    /// Against clearance, while open.
     Clearance,
-    /// Against contact pressure: what holds in contact.
+    /// Against contact pressure, in contact.
     Pressure,
 }
 
-/// Points that are gone through together, so that what one step writes is still in the first cache for the next.
+/// The chunk size in points, so that the output of one step is still in the L1 cache for the next.
 const CHUNK: usize = 1024;
 
-/// So many points at least are the share of a thread: fewer are done sooner than it starts.
+/// The minimum number of points per thread: fewer are done sooner than a thread starts.
 const SHARE: usize = 1 << 17;
 
 /// The same for tables of one axis, which are evaluated nearly as fast as memory is read.
@@ -202,7 +202,7 @@ impl GapConductance {
                     out.iter_mut().zip(states).for_each(|(value, state)| *value = without_table(*state));
                 }
             } else if let Some(kernel) = &self.pressure {
-                // Closed by its clearance alone: the pressure is none.
+                // Closed by its clearance alone: the pressure is zero.
                 let zeros = [0.0; CHUNK];
                 let pressure = pressure.unwrap_or(&zeros[..count]);
                 if states.iter().all(|state| *state == ContactState::Closed) {
@@ -247,7 +247,7 @@ impl GapConductance {
         }
     }
 
-    /// The number of points that are a share of a thread.
+    /// The number of points per thread.
     fn share(&self) -> usize {
         if self.depends_on.contains(&true) { SHARE } else { SHARE_OF_ONE_AXIS }
     }
@@ -265,7 +265,7 @@ fn part_of<'a>(column: &'a [f64], part: &Range<usize>) -> &'a [f64] {
     if column.is_empty() { column } else { &column[part.clone()] }
 }
 
-/// Hands shares of values, each with the number of values before it, to the threads of the machine; few values to none but this one.
+/// Distributes chunks of values, each with its offset, over the threads; few values stay on this one.
 fn in_shares(values: &mut [f64], least: usize, work: impl Fn(usize, &mut [f64]) + Send + Sync) {
     let threads = threads_for(values.len() / least);
     if threads == 1 {
@@ -313,7 +313,7 @@ mod tests {
 
     const CONSTANT: &str = "*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n10., 0., 300.\n10., 2., 300.\n40., 0., 400.\n";
 
-    /// Columns and single points agree bit for bit, for every combination of tables and of what is known of contact.
+    /// Columns and single points agree bit for bit, for every combination of tables and of given contact quantities.
     #[test]
     fn t_22_columns_have_the_bits_of_points() {
         let some = [f64::NAN, -1.0, 0.0, 0.25, 1.0, 1.5, 7.0];

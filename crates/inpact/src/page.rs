@@ -25,7 +25,7 @@ pub fn of_rule(rule: &Rule) -> String {
         page += line.strip_prefix(' ').unwrap_or(line).trim_end();
         page.push('\n');
     }
-    // Tags for the test harness are nothing to a reader.
+    // Tags for the test harness are not for readers.
     page.replace("```inp,expect", "```inp").replace("```inp,fixed", "```inp")
 }
 
@@ -51,7 +51,7 @@ pub(crate) fn of_output(output: &OutputPage) -> String {
     page
 }
 
-/// The columns of node tables and those of results, a table each.
+/// The columns of node tables and those of results, one table each.
 pub(crate) fn of_columns() -> String {
     let mut page = "## Columns of node tables\n\n".to_owned();
     page +=
@@ -189,12 +189,12 @@ fn data_section(data: &Data) -> String {
     text
 }
 
-/// The items of a line as a table: what an analyst looks for first.
+/// The items of a line as a table, which an analyst looks for first.
 fn layout_table(columns: &[&Column], counted: Option<&str>) -> String {
     let mut text = "| item | name | dimension | empty means | what it is |\n|---|---|---|---|---|\n".to_owned();
     let mut item = 0;
     for column in columns {
-        // Two columns that exclude one another share a place.
+        // Two mutually exclusive columns share a position.
         item += usize::from(column.with.is_none());
         let dimension = column.dimension.map_or_else(|| "-".to_owned(), |dimension| dimension.to_string());
         let default = column.default.unwrap_or(0.0);

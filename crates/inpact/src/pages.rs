@@ -52,7 +52,7 @@ pub fn explain(what: &str) -> Result<String, Error> {
     let name = what.trim_start_matches('*');
     let columns = if name == what { pages_of_columns(what) } else { String::new() };
     if !columns.is_empty() {
-        // *NODE and *STEP are keywords too; what only abbreviates one means the column.
+        // *NODE and *STEP are keywords too; a mere abbreviation means the column.
         let keyword = grammar.keywords().map(|(_, keyword)| keyword).find(|keyword| is_meant("", &keyword.name));
         let keyword = keyword.and_then(|keyword| keyword.definition()).map(page::of_keyword);
         return Ok(keyword.into_iter().chain([columns]).collect::<Vec<_>>().join("\n"));

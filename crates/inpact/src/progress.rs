@@ -4,10 +4,10 @@ use indicatif::{ProgressBar, ProgressStyle};
 use std::io::IsTerminal;
 use std::path::Path;
 
-/// Less than this is done before anybody wonders.
+/// Smaller inputs are done quickly.
 const LONG: u64 = 200_000_000;
 
-/// The progress over some files, by their sizes; hidden where nobody looks, or it is over at once.
+/// The progress over some files, by their sizes; hidden without a terminal, or for short inputs.
 #[derive(Debug)]
 pub(crate) struct Progress(ProgressBar);
 
@@ -27,7 +27,7 @@ impl Progress {
         self.0.inc(size(file));
     }
 
-    /// All are done: the bar goes away.
+    /// All are done: the bar is removed.
     pub(crate) fn finish(&self) {
         self.0.finish_and_clear();
     }

@@ -8,11 +8,11 @@ use crate::files;
 use std::fs::Metadata;
 use std::path::{Component, Path, PathBuf};
 
-/// Folders of files made up by the system. Memory that programs share lies in `/dev/shm` and is theirs.
+/// Folders of virtual files. Shared memory of programs in `/dev/shm` is not among them.
 const OF_THE_SYSTEM: [&str; 3] = ["/proc", "/sys", "/dev"];
 const SHARED_MEMORY: &str = "/dev/shm";
 
-/// The reason why a file that a deck names is not read; `None` for a regular one, and for one that is not there.
+/// The reason why a file named in a deck is not read; `None` for a regular one, and for a missing one.
 pub(crate) fn irregular(path: &Path) -> Option<&'static str> {
     let found = path.metadata().ok()?;
     if found.is_dir() {
@@ -34,7 +34,7 @@ fn is_of_the_system(whole: &Path, found: &Metadata) -> bool {
 #[cfg(unix)]
 fn is_on_device_of(found: &Metadata, folders: &[&str]) -> bool {
     use std::os::unix::fs::MetadataExt;
-    // Without such a file system the folder is one of the disk that everything lies on.
+    // Without such a file system the folder is an ordinary one on disk.
     let of_disk = Path::new("/").metadata().map(|root| root.dev()).ok();
     let device = |folder: &&str| Path::new(folder).metadata().map(|folder| folder.dev()).ok();
     folders.iter().filter_map(device).any(|device| device == found.dev() && Some(device) != of_disk)
@@ -45,7 +45,7 @@ fn is_on_device_of(_found: &Metadata, _folders: &[&str]) -> bool {
     false
 }
 
-/// Whether a file lies in every one of some folders: by the file that links lead to where it is there, otherwise by its name alone.
+/// Whether a file lies in all of some folders: by the link target if it exists, otherwise by its name.
 pub(crate) fn lies_in_all(path: &Path, roots: &[PathBuf]) -> bool {
     if roots.is_empty() {
         return true;
@@ -54,7 +54,7 @@ pub(crate) fn lies_in_all(path: &Path, roots: &[PathBuf]) -> bool {
     roots.iter().all(|root| whole.starts_with(root))
 }
 
-/// The whole path of a file that is not there: that of the nearest folder that is, and the rest with its `..` taken by the letter.
+/// The canonical path of a missing file: that of the nearest existing folder, and the rest with `..` resolved textually.
 fn without_dots(path: &Path) -> PathBuf {
     let absolute = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let mut whole = PathBuf::new();
@@ -72,11 +72,11 @@ fn without_dots(path: &Path) -> PathBuf {
     whole
 }
 
-/// The reason why a named deck is not read: it is a link that leads out of the roots, or to a file that the system makes up.
+/// The reason why a named deck is not read: it is a link out of the roots, or to a virtual file.
 pub(crate) fn leads_astray(deck: &Path, roots: &[PathBuf]) -> Option<String> {
     let (Ok(whole), Some(name)) = (deck.canonicalize(), deck.file_name()) else { return None };
     let named = folder_of_deck(deck).join(name);
-    // A stream such as `/dev/stdin` is a link by nature, and whoever names it means it.
+    // A stream such as `/dev/stdin` is always a link, and named on purpose.
     let is_plain = whole == named || OF_THE_SYSTEM.iter().any(|folder| named.starts_with(folder));
     let found = deck.metadata().ok().filter(Metadata::is_file)?;
     if is_plain {
@@ -89,7 +89,7 @@ pub(crate) fn leads_astray(deck: &Path, roots: &[PathBuf]) -> Option<String> {
     Some(format!("it is a link that leads out of `{}`, outside of which nothing is read", root.display()))
 }
 
-/// The whole path of the folder that a deck is named in; the working folder for standard input.
+/// The canonical path of the folder of a deck; the working folder for standard input.
 pub(crate) fn folder_of_deck(deck: &Path) -> PathBuf {
     let folder = files::folder_of(deck);
     folder.canonicalize().unwrap_or_else(|_| folder.to_owned())

@@ -26,9 +26,9 @@ pub(crate) struct Report<'a> {
     pub(crate) figure: &'a Figure,
     /// The plan of an evaluation of a node table, and its results.
     pub(crate) evaluation: Option<Evaluation>,
-    /// The files that it was made from.
+    /// The input files.
     pub(crate) inputs: Vec<Input>,
-    /// The arguments that made it.
+    /// The command line arguments.
     pub(crate) command: String,
 }
 
@@ -37,19 +37,19 @@ pub(crate) struct Report<'a> {
 pub(crate) struct Evaluation {
     /// The name of the node table.
     pub(crate) nodes: String,
-    /// The plan, as `inpact plan` prints it.
+    /// The plan, as printed by `inpact plan`.
     pub(crate) plan: String,
-    /// The summary, as `inpact eval` prints it.
+    /// The summary, as printed by `inpact eval`.
     pub(crate) summary: Vec<String>,
     /// Sums over the nodes of an interface at each time.
     pub(crate) histories: Vec<History>,
-    /// The interfaces in the colours of results, where their geometry is known.
+    /// The interfaces coloured by results, where their geometry is known.
     pub(crate) surfaces: Vec<Surface>,
     /// The cost of accuracy on these rows, where it was measured.
     pub(crate) tradeoff: Option<Tradeoff>,
 }
 
-/// A measurement of what accuracy costs: its diagram, and the same as text.
+/// A measurement of the cost of accuracy: its diagram, and the same as text.
 pub(crate) struct Tradeoff {
     pub(crate) svg: String,
     pub(crate) text: String,
@@ -65,7 +65,7 @@ pub(crate) struct History {
     pub(crate) points: Vec<(Option<f64>, f64)>,
 }
 
-/// How many values a curve has at least, so that pointing at it finds one nearby.
+/// The minimum number of values of a curve, so that hovering finds one nearby.
 pub(crate) const VALUES: usize = 48;
 
 /// The curves of decks as a page, with nothing else.
@@ -89,7 +89,7 @@ pub(crate) fn page_of_curves(figures: &[Figure]) -> String {
     page.finish()
 }
 
-/// The most findings that are shown in full.
+/// The maximum number of findings shown in full.
 const MOST_FINDINGS: usize = 200;
 
 impl Report<'_> {

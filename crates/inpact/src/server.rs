@@ -38,7 +38,7 @@ use lsp_server::{ErrorCode, Message, Request, Response};
 use std::io::{self, Write};
 use std::sync::mpsc::{Receiver, TryRecvError};
 
-/// Serves until the client says that it is done, or goes away.
+/// Serves until the client exits or disconnects.
 pub(crate) fn run() -> Result<Outcome, Failure> {
     let stop = Stop::new();
     let cancelled = Cancelled::new(stop.clone());
@@ -46,13 +46,13 @@ pub(crate) fn run() -> Result<Outcome, Failure> {
     let served = serve(&incoming, (&cancelled, &stop), &mut Client::new(io::stdout()));
     match served {
         Ok(outcome) => Ok(outcome),
-        // A client that is gone needs no answer.
+        // A disconnected client needs no answer.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(Outcome::Clean),
         Err(error) => Err(Failure::Output(error)),
     }
 }
 
-/// Where a server is between its first message and its last.
+/// The lifecycle state of the server.
 enum State {
     /// Nothing but `initialize` is answered.
     Waiting,
@@ -69,7 +69,7 @@ fn serve<W: Write>(
     let mut state = State::Waiting;
     loop {
         let next = match &mut state {
-            // Findings are looked for when nothing else is waiting.
+            // Findings are computed when the queue is empty.
             State::Running(session) if session.has_news() => match incoming.try_recv() {
                 Ok(message) => message,
                 Err(TryRecvError::Empty) => {
@@ -109,7 +109,7 @@ fn serve<W: Write>(
                 } else {
                     answer(&mut state, request, stop)
                 };
-                // It may have been cancelled meanwhile: then nobody wants the answer.
+                // It may have been cancelled meanwhile.
                 let answer = if cancelled.has(&id) { Refusal::cancelled().answer(id.clone()) } else { answer };
                 cancelled.end(&id);
                 client.send(answer)?;

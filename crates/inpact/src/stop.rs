@@ -8,7 +8,7 @@ use std::panic::resume_unwind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Whether somebody has asked for the end of work.
+/// Whether cancellation is requested.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stop(Option<Arc<AtomicBool>>);
 
@@ -17,10 +17,10 @@ pub(crate) struct Stop(Option<Arc<AtomicBool>>);
 pub(crate) struct Stopped;
 
 impl Stop {
-    /// Goes on, or gives the work up.
+    /// Returns, or unwinds if cancellation is requested.
     pub(crate) fn look(&self) {
         if self.0.as_ref().is_some_and(|requested| requested.load(Ordering::Relaxed)) {
-            // It is no fault: no message is printed of it, as of a panic.
+            // It is not a fault, so no panic message is printed.
             resume_unwind(Box::new(Stopped));
         }
     }
@@ -33,12 +33,12 @@ impl Stop {
         Self(Some(Arc::default()))
     }
 
-    /// Asks for the end of the work.
+    /// Requests cancellation.
     pub(crate) fn request(&self) {
         self.set(true);
     }
 
-    /// Lets the next work begin.
+    /// Resets the request.
     pub(crate) fn clear(&self) {
         self.set(false);
     }

@@ -13,28 +13,28 @@ use inpact_parser::number::read_float;
 use inpact_parser::span::Span;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-/// A step of the deck, as far as conditions go.
+/// A step of the deck, for its conditions.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepTime {
-    /// Whether conditions follow time.
+    /// Whether conditions vary with time.
     pub(crate) regime: Regime,
     /// The length of the step (T).
     pub(crate) period: f64,
-    /// The total time at its start (T); `None` where the steps before do not say.
+    /// The total time at its start (T); `None` where the previous steps do not give it.
     pub(crate) start: Option<f64>,
 }
 
 /// The conditions of the deck at a terminal.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Stated {
-    /// By field: the value it is held at.
+    /// By field: the fixed value.
     pub(crate) fixed: [Option<Course>; 3],
-    /// By field: what flows in.
+    /// By field: the source.
     pub(crate) source: [Option<Course>; 3],
-    /// By field: its value at the beginning.
+    /// By field: the initial value.
     pub(crate) initial: [Option<f64>; 3],
     pub(crate) films: Vec<Film>,
-    /// Conditions that cannot be those of one node: the field, the row, and why.
+    /// Conditions that cannot be represented by one node: the field, the row, and the reason.
     pub(crate) faults: Vec<(Field, Span, String)>,
 }
 
@@ -51,9 +51,9 @@ pub(crate) struct Taker<'a> {
     mesh: &'a Mesh,
     conditions: &'a DeckConditions,
     time: StepTime,
-    /// By field and node: the condition that holds it; the last counts.
+    /// By field and node: the fixing condition; the last one applies.
     held: HashMap<(usize, NodeId), usize>,
-    /// By field and node: the conditions of the last step that lets something flow in.
+    /// By field and node: the fluxes of the last step with any.
     flows: HashMap<(usize, NodeId), Vec<usize>>,
     faces: Vec<LoadedFace>,
     taken: BTreeSet<(usize, NodeId)>,
@@ -68,7 +68,7 @@ struct LoadedFace {
 }
 
 impl StepTime {
-    /// The time of a step; the regime is that of the scene, whatever the procedure of the deck is.
+    /// The time of a step; the regime is that of the scene, independent of the deck's procedure.
     pub(crate) fn of(model: &Model, step: usize, regime: Regime) -> Self {
         let period = |step: usize| procedure(model, step).and_then(period_of);
         let before: Option<f64> = (1..step).map(period).sum();
@@ -124,7 +124,7 @@ impl<'a> Taker<'a> {
                 ConditionKind::Flow(field) => {
                     for node in nodes_of(mesh, surface) {
                         let of_node = taker.flows.entry((index_of(field), node)).or_default();
-                        // A later step takes the place of an earlier one, rows of one step add up.
+                        // A later step replaces an earlier one, rows of one step add up.
                         of_node.retain(|other| conditions.conditions[*other].step == condition.step);
                         of_node.push(at);
                     }
@@ -170,7 +170,7 @@ impl<'a> Taker<'a> {
         stated
     }
 
-    /// The value that all nodes begin with; `None` where they do not, or nothing says it.
+    /// The common initial value of all nodes; `None` where there is none.
     fn initial(&self, quantity: InitialQuantity, nodes: &BTreeSet<NodeId>) -> Option<f64> {
         let values = self.mesh.initial_values(quantity)?;
         let mut of_nodes = nodes.iter().map(|node| values[node.index()]);
@@ -214,7 +214,7 @@ impl<'a> Taker<'a> {
         let at = field.index();
         let mut parts: BTreeMap<usize, f64> = BTreeMap::new();
         for node in nodes {
-            // A node of two terminals lets its flow into the first.
+            // The flux of a node of two terminals goes to the first.
             if let Some(conditions) = self.flows.remove(&(at, *node)) {
                 for condition in conditions {
                     *parts.entry(condition).or_default() += 1.0;
@@ -260,7 +260,7 @@ impl<'a> Taker<'a> {
         }
     }
 
-    /// The course of a condition in the time of the step; in a steady state its value at the end.
+    /// The time course of a condition in step time; in a steady state its value at the end.
     fn course(&self, condition: &Condition, magnitude: f64) -> Result<Course, String> {
         let is_steady = self.time.regime == Regime::SteadyState;
         let Some(named) = &condition.amplitude else {
@@ -293,7 +293,7 @@ impl<'a> Taker<'a> {
         Ok(if is_steady { Course::constant(course.at(self.time.period)) } else { course })
     }
 
-    /// The conditions of which some node or face is in no terminal, with how much of them.
+    /// The conditions with nodes or faces outside of terminals, and their number.
     pub(crate) fn left_out(&self) -> Vec<(Span, String)> {
         let mut left: BTreeMap<usize, usize> = BTreeMap::new();
         for (key, condition) in &self.held {

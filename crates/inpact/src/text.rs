@@ -16,7 +16,7 @@ pub(crate) fn in_backticks(names: impl IntoIterator<Item = impl Display>) -> Str
     names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
-/// The shortest text of a number that reads back as it.
+/// The shortest text of a number that round-trips.
 pub(crate) fn number_text(value: f64) -> String {
     let mut text = Vec::new();
     push_number(&mut text, value);
@@ -32,12 +32,12 @@ pub(crate) fn above_zero(text: &str, what: &str) -> Result<f64, String> {
     }
 }
 
-/// A text in quotes as TOML has it: as JSON does, which leaves one control character as it is.
+/// A quoted text in TOML: as in JSON, which leaves one control character unescaped.
 pub(crate) fn toml_text(text: &str) -> String {
     serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007F")
 }
 
-/// A text in quotes where commas, quotes or line ends in it would be taken for those of a table (RFC 4180).
+/// A text, quoted where it contains commas, quotes or line ends (RFC 4180).
 pub(crate) fn csv_text(text: &str) -> String {
     if text.contains([',', '"', '\n']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
@@ -52,7 +52,7 @@ pub(crate) fn csv(rows: impl IntoIterator<Item = Vec<String>>) -> Vec<u8> {
     writer.into_inner().unwrap_or_default()
 }
 
-/// Columns as wide as their widest cell: those of texts to the left, those of numbers to the right.
+/// Columns as wide as their widest cell: texts left-aligned, numbers right-aligned.
 pub(crate) fn aligned(rows: &[Vec<String>], indent: &str, is_text: impl Fn(usize) -> bool) -> String {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |column: usize| column_width(rows.iter().map(|row| row[column].as_str()));

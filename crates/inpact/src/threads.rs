@@ -9,10 +9,10 @@ use std::thread::available_parallelism;
 
 /// The stack of a thread in bytes.
 ///
-/// The local arrays of a user's GAPELECTR lie there, and Abaqus runs it in 8 MiB. Only what is used takes memory.
+/// It holds the local arrays of a user's GAPELECTR, which Abaqus runs in 8 MiB. Only the used part takes memory.
 const STACK: usize = 16 << 20;
 
-/// Does some work with so many threads, 0 for one a core; on the calling thread alone where no other can be started.
+/// Runs work with this number of threads, 0 for one per core; on the calling thread only where no other can be started.
 ///
 /// Everything that may use rayon or call a user's routine runs within this: rayon's own pool ends the program where it cannot be made, and has small stacks.
 pub(crate) fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + Send) -> T {

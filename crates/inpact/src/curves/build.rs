@@ -14,16 +14,16 @@ use std::collections::HashMap;
 
 const MOST_CURVES: usize = 24;
 
-/// The most panels of one law.
+/// The maximum number of panels of one law.
 const MOST_MULTIPLES: usize = 6;
 
-/// The most lines about what is not drawn.
+/// The maximum number of lines about parts not drawn.
 const MOST_NOTES: usize = 20;
 
-/// The most abscissae of a side that all curves of a panel have, where whoever points at one curve reads all of them.
+/// The maximum number of abscissae of a side common to all curves of a panel, for reading all of them on hover.
 const MOST_SHARED: usize = 400;
 
-/// The most values among which these are chosen.
+/// The maximum number of values from which these are chosen.
 const MOST_CHOSEN_FROM: usize = 200_000;
 
 /// The panels of one deck.
@@ -45,7 +45,7 @@ struct Builder<'a> {
     extents: &'a HashMap<(String, LawKind), Extents>,
 }
 
-/// A law of one interaction, with what all its panels share.
+/// A law of one interaction, with the data shared by its panels.
 struct Subject<'a> {
     interaction: &'a Interaction,
     kind: LawKind,
@@ -108,7 +108,7 @@ impl Builder<'_> {
         figure
     }
 
-    /// A law that has something to draw; otherwise why it has not, where there is anything to say.
+    /// A law with something to draw; otherwise the reason, if any.
     fn subject<'a>(
         &self,
         interaction: &'a Interaction,
@@ -258,7 +258,7 @@ impl Builder<'_> {
             Side::Closed => "pressure",
         };
         let keyword = match subject.kind {
-            // *CONTACT PERMEABILITY has a clearance in its cutoffs only.
+            // *CONTACT PERMEABILITY depends on the clearance only by its cutoffs.
             LawKind::Permeability | LawKind::ViewFactor => LawKind::Thermal.keyword(),
             kind => kind.keyword(),
         };
@@ -301,7 +301,7 @@ fn with_knots(subject: &Subject<'_>, side: usize, samples: Vec<Sample>, variable
     Branch { knots, knot_count, samples }
 }
 
-/// How many of the abscissae of a panel's curves are kept.
+/// The number of abscissae of a panel's curves that are kept.
 #[derive(Default)]
 struct Shared {
     kept: usize,

@@ -4,7 +4,7 @@ use super::rows::{LawRows, Rows};
 use super::{LawKind, Side, number};
 use inpact_parser::model::Model;
 
-/// Rows of one table that are named one by one.
+/// The maximum number of rows of one table that are listed.
 const MOST_ROWS: usize = 4;
 
 /// Changes, one line for each table that differs; empty where the laws are the same.
@@ -41,7 +41,7 @@ pub fn changes(old: &Model, new: &Model, kinds: &[LawKind]) -> Vec<String> {
     lines
 }
 
-/// How two tables differ, bit by bit; `None` where they do not.
+/// The bitwise differences of two tables; `None` where there are none.
 fn difference(old: &Rows<'_>, new: &Rows<'_>) -> Option<String> {
     if old.columns != new.columns {
         return Some(format!("columns {} instead of {}", new.columns.join(", "), old.columns.join(", ")));

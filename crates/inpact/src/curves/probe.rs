@@ -33,18 +33,18 @@ pub struct ProbeBranch {
     pub values: Vec<Option<f64>>,
 }
 
-/// The most values of a law in a page.
+/// The maximum number of values of a law in a page.
 const MOST_VALUES: usize = 4000;
 
 const MOST_ABSCISSAE: usize = 40;
 
-/// The most values of each side among which these are chosen.
+/// The maximum number of values of each side from which these are chosen.
 const MOST_CHOSEN_FROM: usize = 200_000;
 
-/// Into how many parts the range between two values of a variable is divided.
+/// The number of intervals between two values of a variable.
 const PARTS: [usize; 3] = [4, 2, 1];
 
-/// The law at the stops of `movable` variables, which are given by their place among all `variables`; `None` where nothing can be moved.
+/// The law at the sample values of `movable` variables, given by index among all `variables`; `None` where there are none.
 pub(super) fn probe(
     law: Law<'_>,
     sides: &[SideRows<'_>; 2],
@@ -80,7 +80,7 @@ pub(super) fn probe(
     Some(Probe { axes, branches })
 }
 
-/// Stops at the values of the rows and between them, as many as fit; variables beyond the first few stay where they are.
+/// Sample values at the values of the rows and between them, as many as fit; variables beyond the first few stay fixed.
 fn axes(movable: &[(usize, &Quantity, &[f64])], most: usize) -> Vec<ProbeAxis> {
     for parts in PARTS {
         let axes: Vec<ProbeAxis> = movable.iter().map(|(_, quantity, values)| axis(quantity, values, parts)).collect();

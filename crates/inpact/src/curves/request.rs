@@ -75,7 +75,7 @@ pub enum Probing {
 pub enum Detail {
     /// At the abscissae of the rows: enough for linear axes.
     Rows,
-    /// At so many places at least, evenly between the rows.
+    /// At least at this number of points, evenly between the rows.
     Even(usize),
     /// The same, evenly on a logarithmic axis.
     Geometric(usize),

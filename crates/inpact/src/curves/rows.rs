@@ -15,7 +15,7 @@ pub(super) struct Rows<'a> {
     pub(super) spans: Vec<Span>,
 }
 
-/// The tables of one law, one a side of contact.
+/// The tables of one law, one per side of contact.
 #[derive(Debug, Clone, Default)]
 pub(super) struct LawRows<'a> {
     pub(super) open: Option<Rows<'a>>,
@@ -23,7 +23,7 @@ pub(super) struct LawRows<'a> {
 }
 
 impl<'a> LawRows<'a> {
-    /// The tables of a law; of two of one kind the later governs.
+    /// The tables of a law; of two of the same kind the later one is in force.
     pub(super) fn of(model: &'a Model, interaction: &'a Interaction, kind: LawKind) -> Self {
         let tables = interaction.tables();
         let last = |wanted: TableKind| tables.iter().rfind(|of| of.kind == wanted).map(|of| Rows::of_table(of.table));
@@ -50,16 +50,16 @@ impl<'a> LawRows<'a> {
         self.open.is_none() && self.closed.is_none()
     }
 
-    /// The names of the variables after the abscissa: those of the table that has more of them, which begin alike.
+    /// The names of the variables after the abscissa: those of the table with more of them, which share a prefix.
     pub(super) fn variables(&self) -> &[String] {
         let of = |rows: &'_ Option<Rows<'a>>| rows.as_ref().map_or(0, |rows| rows.columns.len());
         let longer = if of(&self.open) < of(&self.closed) { &self.closed } else { &self.open };
         longer.as_ref().and_then(|rows| rows.columns.get(2..)).unwrap_or(&[])
     }
 
-    /// The values of a variable in both tables, ascending, each once; NaN is none.
+    /// The distinct values of a variable in both tables, ascending, without NaN.
     ///
-    /// A table with one value of it is the same at any: it counts only where the other has no more either.
+    /// A table with one value of it is constant along it: that value is used only where the other has no more either.
     pub(super) fn distinct(&self, variable: &str) -> Vec<f64> {
         let of_tables =
             [&self.open, &self.closed].map(|rows| rows.as_ref().map_or_else(Vec::new, |rows| rows.distinct(variable)));
@@ -99,7 +99,7 @@ impl<'a> Rows<'a> {
         &self.cells[index * self.width()..(index + 1) * self.width()]
     }
 
-    /// For each variable after the abscissa whether the rows know more than one value of it.
+    /// For each variable after the abscissa whether the rows have more than one value of it.
     pub(super) fn depends(&self) -> Vec<bool> {
         let varies = |column: usize| {
             let mut values = (0..self.count()).map(|row| self.row(row)[column]);
@@ -113,7 +113,7 @@ impl<'a> Rows<'a> {
         self.columns.iter().position(|column| column == name)
     }
 
-    /// The values of a column, ascending, each once.
+    /// The distinct values of a column, ascending.
     fn distinct(&self, name: &str) -> Vec<f64> {
         let Some(column) = self.column(name) else { return Vec::new() };
         let mut values = Vec::new();

@@ -10,23 +10,23 @@ use std::ops::Range;
 /// Values of one branch that are kept: about two for each pixel of a wide picture.
 const MOST_SAMPLES: usize = 1600;
 
-/// Rows of one branch that are marked; more of them would be a band.
+/// The maximum number of marked rows of one branch; more would merge into a band.
 const MOST_KNOTS: usize = 300;
 
-/// Abscissae that are taken of rows between whose groups a curve lies.
+/// The maximum number of abscissae taken from the groups around a curve.
 const MOST_OF_ALL_ROWS: usize = 4000;
 
-/// Groups of rows whose end is looked at on both sides, as the value may drop there.
+/// The maximum number of groups of rows whose end is sampled on both sides, as the value may drop there.
 const MOST_ENDS: usize = 64;
 
-/// The rows of one side of contact, with what all its curves need of them.
+/// The rows of one side of contact, with the data needed by all its curves.
 #[derive(Debug)]
 pub(super) struct Side<'a> {
     pub(super) rows: Option<&'a Rows<'a>>,
     groups: Vec<Range<usize>>,
-    /// On which of the variables after the abscissa the values depend.
+    /// The variables after the abscissa on which the values depend.
     depends: Vec<bool>,
-    /// The abscissae of all rows, ascending, each once; too many are thinned out.
+    /// The distinct abscissae of all rows, ascending; thinned if there are too many.
     all: Vec<f64>,
 }
 
@@ -61,7 +61,7 @@ impl<'a> Side<'a> {
         &self.groups
     }
 
-    /// The rows of a group as marks, and how many there are.
+    /// The rows of a group as markers, and their number.
     pub(super) fn knots(&self, group: Option<Range<usize>>) -> (Vec<Knot>, usize) {
         let (Some(rows), Some(group)) = (self.rows, group) else { return (Vec::new(), 0) };
         let count = group.len();
@@ -96,7 +96,7 @@ impl<'a> Side<'a> {
 }
 
 impl Detail {
-    /// Adds abscissae between those that are needed.
+    /// Adds abscissae between the required ones.
     fn refine(self, abscissae: &mut Vec<f64>) {
         let wanted = match self {
             Self::Rows => return,
@@ -124,7 +124,7 @@ impl Detail {
     }
 }
 
-/// Ascending, each once. Zero is +0.
+/// Ascending and distinct. Zero is +0.
 pub(super) fn sort_and_dedup(values: &mut Vec<f64>) {
     for value in values.iter_mut() {
         *value += 0.0;
@@ -133,7 +133,7 @@ pub(super) fn sort_and_dedup(values: &mut Vec<f64>) {
     values.dedup();
 }
 
-/// At most so many of some values, evenly spaced, the first and the last among them.
+/// An evenly spaced sample of at most this number of values, including the first and the last.
 pub(super) fn spread<T: Clone>(values: &[T], most: usize) -> Vec<T> {
     if values.len() <= most || most < 2 {
         return values.to_vec();
@@ -141,7 +141,7 @@ pub(super) fn spread<T: Clone>(values: &[T], most: usize) -> Vec<T> {
     (0..most).map(|index| values[index * (values.len() - 1) / (most - 1)].clone()).collect()
 }
 
-/// Leaves out samples that nobody could see: of each stretch the first, the last, the smallest and the largest stay.
+/// Drops samples below the resolution: of each interval the first, the last, the smallest and the largest are kept.
 pub(super) fn thinned(samples: Vec<Sample>) -> Vec<Sample> {
     if samples.len() <= MOST_SAMPLES {
         return samples;
@@ -160,10 +160,10 @@ pub(super) fn thinned(samples: Vec<Sample>) -> Vec<Sample> {
     kept
 }
 
-/// The indices of at most so many of the abscissae that some curves share.
+/// The indices of at most this number of the abscissae shared by some curves.
 ///
-/// Of each stretch the first stays, and the one where a curve departs furthest from the straight line through the stretch's ends,
-/// as a part of the curve's own range: a spike of one small curve is seen beside large ones. The last stays as well.
+/// Of each interval the first is kept, and the one where a curve deviates most from the straight line through the interval's ends,
+/// relative to the curve's own range, so that a spike of a small curve remains visible beside large ones. The last is kept as well.
 pub(super) fn thinned_together(abscissae: &[f64], curves: &[Vec<Option<f64>>], most: usize) -> Vec<usize> {
     let count = abscissae.len();
     if count <= most {
@@ -188,7 +188,7 @@ pub(super) fn thinned_together(abscissae: &[f64], curves: &[Vec<Option<f64>>], m
     kept
 }
 
-/// How far the second of three points lies from the straight line through the two others.
+/// The distance of the second of three points from the straight line through the two others.
 fn departure([x0, x, x1]: [f64; 3], [y0, y, y1]: [Option<f64>; 3]) -> Option<f64> {
     let (y0, y, y1) = (y0?, y?, y1?);
     let found = (y - (y0 + (x - x0) / (x1 - x0) * (y1 - y0))).abs();

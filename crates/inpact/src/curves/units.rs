@@ -49,7 +49,7 @@ fn base_named(name: &str) -> Option<Base> {
     }
 }
 
-/// The columns that tables of laws have.
+/// The columns of tables of laws.
 fn is_column(name: &str) -> bool {
     const COLUMNS: [&str; 8] =
         ["conductance", "permeability", "view_factor", "clearance", "pressure", "pore_pressure", "temp", "mass_flow"];
@@ -75,7 +75,7 @@ impl Units {
         Quantity { column: column.to_owned(), name: name(column), unit }
     }
 
-    /// A product of powers: the positive ones first, as the grammar writes them.
+    /// A product of powers, the positive ones first, as in the grammar.
     fn of_dimension(&self, dimension: Dimension) -> String {
         let powers = Base::ALL.into_iter().map(|base| (base, dimension.exponent(base)));
         let (positive, negative): (Vec<_>, Vec<_>) =

@@ -4,10 +4,10 @@ use std::fs::{File, Metadata};
 use std::io;
 use std::path::Path;
 
-/// Refuses a file that the user may not write to: where he may write to its folder, another file could take its place against the wish of whoever protected it.
+/// Rejects a file that the user may not write to: with write access to its folder it could be replaced against its protection.
 pub(super) fn require_writable(path: &Path, present: &Metadata) -> io::Result<()> {
     if present.permissions().readonly() {
-        // The superuser may write to it all the same.
+        // The superuser may still write to it.
         return Err(io::Error::new(io::ErrorKind::PermissionDenied, "it is read-only"));
     }
     File::options().write(true).open(path).map(drop)
@@ -15,7 +15,7 @@ pub(super) fn require_writable(path: &Path, present: &Metadata) -> io::Result<()
 
 /// Gives `file` owner, group, permissions and attributes of the file at `path`, which it will replace.
 ///
-/// The right to act as the owner (set-user-id, set-group-id) is not passed on to another content.
+/// The right to act as the owner (set-user-id, set-group-id) is not passed on to other content.
 #[cfg(unix)]
 pub(super) fn pass_on(path: &Path, present: &Metadata, file: &File) -> io::Result<()> {
     use std::os::unix::fs::{MetadataExt, PermissionsExt, fchown};
@@ -71,7 +71,7 @@ mod attributes {
         for name in names[..length].split(|byte| *byte == 0).filter(|name| !name.is_empty()) {
             let name = OsStr::from_bytes(name);
             if name == "security.capability" {
-                // A right of the program that stood there, as set-user-id is.
+                // A right of the replaced program, like set-user-id.
                 continue;
             }
             let copied = fgetxattr(&original, name, &mut value[..])

@@ -2,9 +2,9 @@
 
 use std::path::Path;
 
-/// Whether another process that can be seen has the file called `path` open for writing.
+/// Whether another visible process has the file at `path` open for writing.
 ///
-/// Known only on Linux, and only of processes of the same user, or of all to root.
+/// Only on Linux, and only for processes of the same user, or for all as root.
 #[cfg(target_os = "linux")]
 pub(super) fn is_open_for_writing(paths: &[&Path]) -> Vec<bool> {
     let mut found = vec![false; paths.len()];
@@ -20,7 +20,7 @@ pub(super) fn is_open_for_writing(paths: &[&Path]) -> Vec<bool> {
         if !is_process {
             continue;
         }
-        // Those of other users, and those that ended meanwhile, have nothing to show.
+        // Processes of other users, and those that have ended, are not readable.
         let Ok(descriptors) = std::fs::read_dir(process.path().join("fd")) else { continue };
         for descriptor in descriptors.flatten() {
             let Ok(open) = std::fs::read_link(descriptor.path()) else { continue };

@@ -6,7 +6,7 @@ use std::fs::{File, Metadata};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The identity of a file, by whatever name it was reached.
+/// The identity of a file, independent of its name.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Identity {
     #[cfg(unix)]
@@ -37,10 +37,10 @@ impl Identity {
     }
 }
 
-/// The files read so far: by what they are, and by where they are, since a file may be replaced after it was read.
+/// The files read so far, by identity and by path, since a file may be replaced after it was read.
 #[derive(Debug, Default)]
 struct Inputs {
-    /// With the name each was read under.
+    /// With the name under which each was read.
     files: BTreeMap<Identity, PathBuf>,
     places: BTreeSet<PathBuf>,
 }
@@ -51,14 +51,14 @@ fn inputs() -> MutexGuard<'static, Inputs> {
     INPUTS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Takes down that an open file is read, or that a file is named to be read; devices and pipes are nothing that could be lost.
+/// Records an open file, or a file named as an input; devices and pipes cannot be overwritten.
 pub(super) fn take_down(file: &File, path: &Path) {
     if let Ok(metadata) = file.metadata() {
         take_down_metadata(&metadata, path);
     }
 }
 
-/// Takes down a file that is read by others than [`super`], such as the loader of libraries.
+/// Records a file that is not read by [`super`], such as by the library loader.
 pub(crate) fn take_down_path(path: &Path) {
     if let Ok(metadata) = std::fs::metadata(path) {
         take_down_metadata(&metadata, path);
@@ -75,7 +75,7 @@ fn take_down_metadata(metadata: &Metadata, path: &Path) {
     inputs.places.insert(place);
 }
 
-/// Records standard input where it is a file, and gives its metadata.
+/// Records standard input where it is a file, and returns its metadata.
 #[cfg(unix)]
 pub(super) fn take_down_standard_input() -> Option<Metadata> {
     let metadata = standard_metadata(&std::io::stdin());
@@ -98,7 +98,7 @@ pub(super) fn standard_metadata(stream: &impl std::os::fd::AsFd) -> Option<Metad
     File::from(descriptor).metadata().ok()
 }
 
-/// Refuses to write a result over a file that this run has read.
+/// Rejects a result that would overwrite a file that this run has read.
 pub(super) fn refuse(target: &Path) -> Result<(), Failure> {
     let identity = Identity::at(target);
     let inputs = inputs();
@@ -110,7 +110,7 @@ pub(super) fn refuse(target: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Refuses to write a result to a standard stream that is a file which this run has read.
+/// Rejects a result to a standard stream that is a file which this run has read.
 #[cfg(unix)]
 pub(super) fn refuse_standard(stream: &impl std::os::fd::AsFd) -> Result<(), Failure> {
     let Some(metadata) = standard_metadata(stream).filter(Metadata::is_file) else { return Ok(()) };

@@ -10,11 +10,11 @@ use std::path::{Path, PathBuf};
 /// The target of a result: standard output, or a file that gets its name only when it is complete.
 ///
 /// The file is written beside its target and renamed, so a stopped run never leaves half a result under the requested name.
-/// A file that is there already keeps its owner and permissions, and a link to it stays a link; a write-protected one is left alone,
-/// and so is every file that this run has read.
+/// An existing file keeps its owner and permissions, and a link to it stays a link; a write-protected one is not replaced,
+/// nor is any file that this run has read.
 pub(crate) enum ResultFile {
     Standard(io::BufWriter<io::Stdout>),
-    /// A device or a named pipe, which nothing must be renamed to.
+    /// A device or a named pipe, which must not be replaced.
     Stream {
         stream: io::BufWriter<File>,
         target: PathBuf,
@@ -73,7 +73,7 @@ impl ResultFile {
         Ok(Self::Standard(io::BufWriter::with_capacity(PIECE, io::stdout())))
     }
 
-    /// A target that is what standard output or standard error already is, such as `/dev/stdout`: what others write there stays.
+    /// A target that is already standard output or standard error, such as `/dev/stdout`: output of others is kept.
     #[cfg(unix)]
     fn of_standard_stream(named: &Path, present: &std::fs::Metadata) -> Result<Option<Self>, Failure> {
         use std::os::fd::AsFd;
@@ -112,7 +112,7 @@ impl ResultFile {
         }
     }
 
-    /// The failure of an error of writing.
+    /// The failure for a write error.
     pub(crate) fn failure(&self, error: io::Error) -> Failure {
         match self {
             Self::Standard(_) => Failure::Output(error),
@@ -120,12 +120,12 @@ impl ResultFile {
         }
     }
 
-    /// Whether what is written goes out at once, so that nothing takes it back.
+    /// Whether output is written immediately, so that it cannot be undone.
     pub(crate) fn is_stream(&self) -> bool {
         !matches!(self, Self::File { .. })
     }
 
-    /// Writes out what is left and gives the file its name.
+    /// Flushes the rest and renames the file to its target.
     pub(crate) fn finish(self) -> Result<(), Failure> {
         match self {
             Self::Standard(mut output) => output.flush().map_err(Failure::Output),
@@ -135,7 +135,7 @@ impl ResultFile {
                 let file = file.into_inner().map_err(|error| failed(error.into_error()))?;
                 sync_file(&file).map_err(failed)?;
                 drop(file);
-                // Files may have been read since this one was begun.
+                // Files may have been read since this one was created.
                 inputs::refuse(&target)?;
                 beside.rename(&target, &mut hold()).map_err(failed)?;
                 sync_folder(folder_of(&target)).map_err(failed)

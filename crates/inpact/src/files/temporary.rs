@@ -13,14 +13,14 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 /// The prefix of the names of temporary files.
 const PREFIX: &str = ".inpact-";
 
-/// The temporary files that are there.
+/// The existing temporary files.
 static PRESENT: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// As long as it is held no signal ends the program: names change hands whole.
+/// While it is held no signal ends the program, so renames are complete.
 #[derive(Debug)]
 pub(super) struct Hold(MutexGuard<'static, Vec<PathBuf>>);
 
-/// Waits for a signal that is being handled (for ever, since the program ends then), and keeps others waiting.
+/// Blocks on a signal being handled (for ever, since the program then ends), and delays others.
 pub(super) fn hold() -> Hold {
     Hold(PRESENT.lock().unwrap_or_else(PoisonError::into_inner))
 }
@@ -28,7 +28,7 @@ pub(super) fn hold() -> Hold {
 /// Permissions of a temporary file while it is being written.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Access {
-    /// As any new file: everybody, but for the user's umask.
+    /// As any new file: everybody, subject to the umask.
     OfNewFile,
     /// The user alone.
     Private,
@@ -41,23 +41,23 @@ pub(crate) struct Temporary {
     is_there: bool,
 }
 
-/// Whether the process is ours, and with it its signals.
+/// Whether the process, and its signals, belong to the program.
 static OWNS_PROCESS: AtomicBool = AtomicBool::new(false);
 
-/// From now on temporary files are removed when a signal ends the program: for the command line.
+/// Installs the removal of temporary files on signals, for the command line.
 ///
-/// A program that uses the library has its own way with signals, such as Python's with Ctrl-C.
+/// A program that uses the library handles signals itself, such as Python with Ctrl-C.
 pub(crate) fn remove_on_signals() {
     OWNS_PROCESS.store(true, Ordering::Relaxed);
 }
 
 impl Temporary {
-    /// Makes an empty file in `folder`, open for writing.
+    /// Creates an empty file in `folder`, open for writing.
     pub(super) fn create(folder: &Path, access: Access) -> io::Result<(Self, File)> {
         if OWNS_PROCESS.load(Ordering::Relaxed) {
             signals::watch();
         }
-        // A routine of the user may change the working folder.
+        // A user routine may change the working folder.
         let folder = std::path::absolute(folder)?;
         let mut options = File::options();
         options.read(true).write(true).create_new(true);
@@ -74,7 +74,7 @@ impl Temporary {
         Self::make(&folder, &mut hold(), |path| options.open(path))
     }
 
-    /// Gives the file at `original` a second name that goes as a temporary file does.
+    /// Gives the file at `original` a second name that is removed like a temporary file.
     pub(super) fn link(original: &Path, hold: &mut Hold) -> io::Result<Self> {
         let folder = original.parent().unwrap_or(Path::new("."));
         Ok(Self::make(folder, hold, |path| std::fs::hard_link(original, path))?.0)
@@ -84,7 +84,7 @@ impl Temporary {
         let mut code = None;
         let make = |path: &Path| make(path).inspect_err(|error| code = error.raw_os_error());
         let made = tempfile::Builder::new().prefix(PREFIX).make_in(folder, make);
-        // The library names the file that it could not make, and the user knows the target alone.
+        // The library's message names the temporary file, but the user only knows the target.
         let made = made.map_err(|error| code.map_or(error, io::Error::from_raw_os_error))?;
         let (made, path) = made.keep().map_err(|error| error.error)?;
         hold.0.push(path.clone());
@@ -95,14 +95,14 @@ impl Temporary {
         &self.path
     }
 
-    /// Puts the file in the place of whatever is called `target`.
+    /// Renames the file to `target`.
     pub(super) fn rename(&mut self, target: &Path, hold: &mut Hold) -> io::Result<()> {
         std::fs::rename(&self.path, target)?;
         self.forget(hold);
         Ok(())
     }
 
-    /// Leaves the file where it is for good.
+    /// Keeps the file permanently.
     pub(super) fn forget(&mut self, hold: &mut Hold) {
         self.is_there = false;
         hold.0.retain(|path| *path != self.path);
@@ -113,14 +113,14 @@ impl Drop for Temporary {
     fn drop(&mut self) {
         if self.is_there {
             let mut hold = hold();
-            // Whoever removed it before did what is wanted.
+            // It may already be removed.
             let _ = std::fs::remove_file(&self.path);
             self.forget(&mut hold);
         }
     }
 }
 
-/// Removes all temporary files: the program ends in a way that runs no destructors.
+/// Removes all temporary files, for ends of the program without destructors.
 pub(crate) fn remove_all() {
     remove_those(&mut hold());
 }
@@ -143,24 +143,24 @@ mod signals {
     use std::ffi::c_int;
     use std::sync::{Once, mpsc};
 
-    /// Signals that end a program by default and can be caught; the rest are crashes of it.
+    /// Signals that end a program by default and can be caught; the others are crashes.
     const ENDING: [c_int; 10] =
         [SIGHUP, SIGINT, SIGQUIT, SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGVTALRM, SIGPROF, SIGXCPU];
 
-    /// From now on temporary files are removed when a signal ends the program, which then ends by that signal all the same.
+    /// Installs the removal of temporary files on signals, after which the program still ends by that signal.
     ///
-    /// Without a thread, signals do what they do by default.
+    /// Without a thread, signals have their default action.
     pub(super) fn watch() {
         static ONCE: Once = Once::new();
         ONCE.call_once(|| {
             let (ready, is_ready) = mpsc::channel();
             let watching = move || {
                 let signals = Signals::new(caught());
-                // Nobody waits for it any more where nothing can be caught.
+                // Not needed where nothing can be caught.
                 let _ = ready.send(());
                 let Ok(mut signals) = signals else { return };
                 for signal in signals.forever() {
-                    // A file that grows beyond its limit is an error of the writing that made it, which says more than the signal.
+                    // A file beyond the size limit is a write error, which says more than the signal.
                     if signal != SIGXFSZ {
                         let mut hold = hold();
                         remove_those(&mut hold);
@@ -183,7 +183,7 @@ mod signals {
                 let is_ignored = |signal: c_int| ignored >> (signal - 1) & 1 == 1;
                 ENDING.into_iter().chain([SIGXFSZ]).filter(|signal| !is_ignored(*signal)).collect()
             }
-            // The ignored signals cannot be known: these two nobody ignores for a whole run.
+            // The ignored signals are unknown: these two are never ignored for a whole run.
             None => vec![SIGINT, SIGTERM, SIGXFSZ],
         }
     }

@@ -20,18 +20,18 @@ use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The most bytes read of a stream that may have no end, such as a pipe.
+/// The maximum number of bytes read from a possibly endless stream, such as a pipe.
 const MOST_OF_STREAM: u64 = 1 << 30;
 
-/// A file as it was read: what it was and what was in it.
+/// A file as it was read: its identity and content.
 #[derive(Debug, Clone)]
 pub(crate) struct Snapshot {
-    /// The name it was read under.
+    /// The name under which it was read.
     pub(crate) name: PathBuf,
     /// Its path, links followed.
     pub(crate) path: PathBuf,
     pub(crate) bytes: Arc<[u8]>,
-    /// `None` for what cannot be written back: a pipe or a device.
+    /// `None` if it cannot be written back: a pipe or a device.
     identity: Option<Identity>,
 }
 
@@ -46,7 +46,7 @@ pub(crate) struct Change {
 }
 
 impl Snapshot {
-    /// Reads a deck, or what else has that name, once and whole.
+    /// Reads a file once, as a whole.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let mut file = open_file(path)?;
         let unreadable = |error| Failure::read(path, error);
@@ -71,7 +71,7 @@ impl Snapshot {
 
     /// Whether the file at `path` is the one that was read, with the same content.
     ///
-    /// Without a file identity its path identifies it: the one it was read at, wherever the file is at the moment.
+    /// Without a file identity its path at the time of reading identifies it, wherever the file is now.
     fn is_unchanged_at(&self, path: &Path) -> io::Result<bool> {
         let mut file = File::open(path)?;
         let metadata = file.metadata()?;
@@ -98,12 +98,12 @@ fn has_content(file: &mut File, mut expected: &[u8]) -> io::Result<bool> {
 }
 
 impl Change {
-    /// New content for a file that was read, on condition that it still is what was read.
+    /// New content for a file that was read, if it is unchanged since.
     pub(crate) fn of_read(snapshot: Snapshot, content: Arc<[u8]>) -> Self {
         Self { target: snapshot.path.clone(), content, expected: Some(snapshot) }
     }
 
-    /// A result, whatever is there.
+    /// A result that replaces any existing file.
     pub(crate) fn result(path: &Path, content: Arc<[u8]>) -> Self {
         Self { target: whole_path(path), content, expected: None }
     }
@@ -117,7 +117,7 @@ impl Change {
         Failure::write(self.name(), error)
     }
 
-    /// Refuses a target that is not what was read.
+    /// Rejects a target that has changed since it was read.
     fn verify(&self, path: &Path) -> io::Result<()> {
         match &self.expected {
             Some(snapshot) if !snapshot.is_unchanged_at(path)? => {
@@ -138,13 +138,13 @@ struct Prepared<'a> {
 
 /// Stages of an exchange of names.
 enum State {
-    /// Old and new have their own.
+    /// Old and new have their own names.
     Waiting,
-    /// The old one is called as the temporary was.
+    /// The old one has the name of the temporary.
     Exchanged,
-    /// The temporary has the name, and the old one is called as this one.
+    /// The temporary has the name, and the old one this second name.
     Replaced(Temporary),
-    /// The temporary has the name; there was none of it before.
+    /// The temporary has the name; there was no file before.
     Created,
 }
 
@@ -177,7 +177,7 @@ pub(crate) fn commit(changes: &[Change]) -> Result<(), Vec<Failure>> {
     let synced =
         all(folders.into_iter().map(|folder| sync_folder(folder).map_err(|error| Failure::write(folder, error))));
     drop(hold);
-    // Here what is left under temporary names is removed: the old files, or the new ones when they were refused.
+    // Here the files left under temporary names are removed: the old ones, or the new ones after a failure.
     drop(prepared);
     if refused.is_empty() { synced.map(drop) } else { Err(refused) }
 }
@@ -213,14 +213,14 @@ fn prepare(change: &Change) -> io::Result<Prepared<'_>> {
     Ok(Prepared { change, new, beside, state: State::Waiting })
 }
 
-/// Checks that the exchanged files are those that were read, and stay so.
+/// Checks that the exchanged files are those that were read, and cannot change any more.
 fn look(prepared: &[Prepared<'_>]) -> Vec<Failure> {
     let read: Vec<(&Prepared<'_>, &Path)> = prepared
         .iter()
         .filter(|ready| ready.change.expected.is_some())
         .filter_map(|ready| Some((ready, ready.old()?)))
         .collect();
-    // Whoever has it open now can still write to it; whoever had it open before has written all he will, and that is seen in the content.
+    // A program that has it open now can still write to it; one that had it open before has finished, and its writes are in the content.
     let names: Vec<&Path> = read.iter().map(|(_, old)| *old).collect();
     let held = holders::is_open_for_writing(&names);
     let checked = read.iter().zip(held).map(|((ready, old), is_held)| {
@@ -244,7 +244,7 @@ impl Prepared<'_> {
         }
     }
 
-    /// Gives the new file the name.
+    /// Renames the new file to the target.
     fn exchange(&mut self, hold: &mut Hold) -> io::Result<()> {
         let target = &self.change.target;
         match exchange(self.beside.path(), target) {
@@ -260,7 +260,7 @@ impl Prepared<'_> {
                 self.state = State::Created;
                 Ok(())
             }
-            // The system knows no such thing.
+            // The system does not support it.
             Err(_) => self.replace(hold),
         }
     }
@@ -277,7 +277,7 @@ impl Prepared<'_> {
         let old = Temporary::link(target, hold)?;
         self.state = State::Replaced(old);
         if let Err(error) = self.change.verify(target).and_then(|()| self.beside.rename(target, hold)) {
-            // The target is what it was.
+            // The target is unchanged.
             let state = std::mem::replace(&mut self.state, State::Waiting);
             if let State::Replaced(mut old) = state {
                 let _ = std::fs::remove_file(old.path());
@@ -288,7 +288,7 @@ impl Prepared<'_> {
         Ok(())
     }
 
-    /// Gives the old file its name again, unless another program has written to the new one meanwhile.
+    /// Restores the old file's name, unless another program has written to the new one meanwhile.
     fn put_back(&mut self, hold: &mut Hold) -> io::Result<()> {
         let target = &self.change.target;
         match &mut self.state {
@@ -314,7 +314,7 @@ impl Prepared<'_> {
         let (target, beside) = (&self.change.target, self.beside.path());
         if let Err(error) = exchange(beside, target) {
             if error.kind() == io::ErrorKind::NotFound {
-                // Another program removed the new file: what it removed it believed to be the old one.
+                // Another program removed the new file, believing it to be the old one.
                 return Ok(());
             }
             let place = beside.display().to_string();
@@ -325,7 +325,7 @@ impl Prepared<'_> {
             || !self.new_is_untouched(beside)
             || holders::is_open_for_writing(&[beside]) == [true];
         if is_edited {
-            // Another program saved what it made of the new file, or is about to: that is the latest, and stays.
+            // Another program saved its edit of the new file, or is about to: that is the latest state, and is kept.
             exchange(beside, target)?;
             return Err(io::Error::other(
                 "another program is editing what had been written already, which is left to it",
@@ -334,7 +334,7 @@ impl Prepared<'_> {
         Ok(())
     }
 
-    /// Whether the file at `path` is the new one as it was written.
+    /// Whether the file at `path` is the new one, unchanged.
     fn new_is_untouched(&self, path: &Path) -> bool {
         let Ok(mut file) = File::open(path) else { return false };
         let is_new = file.metadata().is_ok_and(|metadata| Identity::of(&metadata, &self.change.target) == self.new);
@@ -342,7 +342,7 @@ impl Prepared<'_> {
     }
 }
 
-/// Swaps the names of two files, in one step.
+/// Swaps the names of two files atomically.
 #[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
 fn exchange(one: &Path, other: &Path) -> io::Result<()> {
     use rustix::fs::{CWD, RenameFlags, renameat_with};
@@ -400,7 +400,7 @@ mod tests {
         assert_eq!(names(folder.path()), ["a", "b"]);
     }
 
-    /// Earlier exchanges are undone when a later file is refused in the last moment.
+    /// Earlier exchanges are undone when a later file fails at the last moment.
     #[test]
     fn what_was_exchanged_is_exchanged_back() {
         let folder = tempfile::tempdir().expect("a folder");
@@ -423,7 +423,7 @@ mod tests {
         assert!(!gone.exists());
     }
 
-    /// A program that has the file open writes to it after its name changed hands: its edit is not lost.
+    /// A program that has the file open writes to it after the exchange of names: its edit is not lost.
     #[cfg(target_os = "linux")]
     #[test]
     fn a_file_that_another_program_has_open_for_writing_is_left_to_it() {

@@ -6,25 +6,25 @@ use std::fs::Metadata;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// The longest line of a deck or a table, in bytes; Abaqus reads 256 characters of a line.
+/// The maximum length of a line of a deck or a table, in bytes; Abaqus reads 256 characters of a line.
 pub(super) const LONGEST_LINE: usize = 16 << 20;
 
-/// The most bytes read of a device, which may have no end; a terminal is one too.
+/// The maximum number of bytes read from a device, including terminals, which may be endless.
 const MOST_OF_DEVICE: u64 = 64 << 20;
 
-/// An input that is given up where it is a device that goes on and on.
+/// An input with a limit for endless devices.
 pub(super) struct Bounded<R> {
     input: R,
     left: u64,
     most: u64,
 }
 
-/// Bounds an input by what it is.
+/// Limits an input by its file type.
 pub(super) fn bounded<R: Read>(input: R, metadata: Option<&Metadata>) -> Bounded<R> {
     bounded_to(input, if metadata.is_some_and(is_device) { MOST_OF_DEVICE } else { u64::MAX })
 }
 
-/// Bounds an input by a number of bytes.
+/// Limits an input to a number of bytes.
 fn bounded_to<R: Read>(input: R, most: u64) -> Bounded<R> {
     Bounded { input, left: most, most }
 }
@@ -57,12 +57,12 @@ fn is_device(_metadata: &Metadata) -> bool {
     false
 }
 
-/// Reads all bytes of a deck or a table, or of standard input for `-`: lines, each of which ends.
+/// Reads all bytes of a deck or a table, or of standard input for `-`, with a limit of line length.
 pub(crate) fn read_lines(path: &Path) -> Result<Vec<u8>, Failure> {
     lines_of(&mut open(path)?).map_err(|error| Failure::read(path, error))
 }
 
-/// Reads all bytes of lines that come from no file, such as a pipe, and may have no end.
+/// Reads all bytes of lines from a possibly endless stream, such as a pipe.
 pub(super) fn lines_of_stream(input: &mut dyn Read, most: u64) -> io::Result<Vec<u8>> {
     let bytes = lines_of(&mut input.take(most.saturating_add(1)))?;
     if most < bytes.len() as u64 {
@@ -99,7 +99,7 @@ pub(super) fn endless_line(line: impl std::fmt::Display) -> io::Error {
     invalid(format!("line {line} is longer than {LONGEST_LINE} bytes, the most that a line may have: it is no deck"))
 }
 
-/// The text of an input: UTF-8, without the character NUL, which no JSON and no TOML has.
+/// The text of an input: UTF-8 without NUL, which is invalid in JSON and TOML.
 fn text_of(input: &mut dyn Read) -> io::Result<String> {
     let mut sound = 0;
     let bytes = read_while(input, |bytes, new| {
@@ -110,7 +110,7 @@ fn text_of(input: &mut dyn Read) -> io::Result<String> {
             Ok(_) => sound = bytes.len(),
             Err(error) => {
                 sound += error.valid_up_to();
-                // A character may go on in the next piece.
+                // A character may continue in the next piece.
                 if error.error_len().is_some() {
                     return Err(not_utf8(sound));
                 }
@@ -129,7 +129,7 @@ fn invalid(message: String) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, message)
 }
 
-/// Reads to the end, as long as `judge` allows: it sees what was read so far, and where the last piece of it begins.
+/// Reads to the end, as long as `judge` allows: it gets the bytes so far, and the start of the last piece.
 fn read_while(input: &mut dyn Read, mut judge: impl FnMut(&[u8], usize) -> io::Result<()>) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     loop {

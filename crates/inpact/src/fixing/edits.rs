@@ -11,11 +11,11 @@ use std::path::{Path, PathBuf};
 /// The edits of one round.
 #[derive(Debug, Default)]
 pub(super) struct Chosen {
-    /// By the place of the file they fall into; no two overlap.
+    /// By the path of their file; no two overlap.
     pub(super) edits: BTreeMap<PathBuf, Vec<Edit>>,
-    /// The number of findings they mend.
+    /// The number of findings they fix.
     pub(super) findings: usize,
-    /// The findings left, by file.
+    /// The remaining findings, by file.
     pub(super) left: BTreeMap<PathBuf, Left>,
 }
 
@@ -27,7 +27,7 @@ pub(super) struct Left {
     pub(super) fixes: BTreeSet<(u64, &'static str)>,
 }
 
-/// Reasons why a file is not mended.
+/// Reasons why a file is not changed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Reason {
     /// It lies outside of the folder of the deck.
@@ -39,7 +39,7 @@ pub(super) enum Reason {
 /// Edits by the bytes that they replace.
 type Taken = BTreeSet<(u64, u64)>;
 
-/// Chooses among the findings of a deck; the file called `path` and all that are `named` may be mended wherever they are.
+/// Chooses among the findings of a deck; the file at `path` and all that are `named` may be changed wherever they are.
 pub(super) fn choose(
     found: &[Diagnostic],
     deck: &LocatedDeck,
@@ -61,7 +61,7 @@ pub(super) fn choose(
     let mut taken: BTreeMap<&Path, Taken> = BTreeMap::new();
     let mut chosen = Chosen::default();
     for (found, fix) in found.iter().filter_map(|found| Some((found, selection.selects(found)?))) {
-        // A source without a place would be one that was never read.
+        // A source without a path was never read.
         let located: Option<Vec<(&Path, &Edit)>> =
             fix.edits.iter().map(|edit| Some((deck.place(edit.span.source())?, edit))).collect();
         let Some(located) = located else { continue };
@@ -74,7 +74,7 @@ pub(super) fn choose(
             left.or_insert_with(|| Left { reason, fixes: BTreeSet::new() }).fixes.insert((start, found.code));
             continue;
         }
-        // A fix is applied whole or not at all: what touches another waits for the next round.
+        // A fix is applied as a whole or not at all: overlapping ones wait for the next round.
         let is_free = |(place, edit): &(&Path, &Edit)| taken.get(place).is_none_or(|taken| is_free(taken, edit));
         if !located.iter().all(is_free) {
             continue;
@@ -88,7 +88,7 @@ pub(super) fn choose(
     chosen
 }
 
-/// Whether an edit touches none of those before it.
+/// Whether an edit overlaps none of those before it.
 fn is_free(taken: &Taken, edit: &Edit) -> bool {
     let (start, end) = (edit.span.start(), edit.span.end());
     let before = taken.range(..=(start, u64::MAX)).next_back().copied();

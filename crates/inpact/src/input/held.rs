@@ -7,11 +7,11 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// Files by where they are, links followed: each is there once, by whatever names it is reached.
+/// Files by path with links resolved: each is stored once, whatever its names.
 #[derive(Debug, Default)]
 pub(crate) struct HeldFiles(Mutex<BTreeMap<PathBuf, Held>>);
 
-/// A file as it was read and as it is to be.
+/// A file with its old and new content.
 #[derive(Debug, Clone)]
 pub(crate) struct Held {
     pub(crate) read: Snapshot,
@@ -29,7 +29,7 @@ impl HeldFiles {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The content of a file, read at first use; messages call it `name`.
+    /// The content of a file, read at first use; `name` is its name in messages.
     pub(crate) fn content(&self, path: &Path, name: &Path) -> Result<Arc<[u8]>, Failure> {
         let place = files::whole_path(path);
         if let Some(held) = self.files().get_mut(&place) {
@@ -38,27 +38,27 @@ impl HeldFiles {
             }
             return Ok(held.now.clone());
         }
-        // Reading a pipe may take its time, in which others must not wait.
+        // Reading a pipe may take long, and must not block others.
         let mut read = Snapshot::read(path)?;
         name.clone_into(&mut read.name);
         let now = read.bytes.clone();
         Ok(self.files().entry(place).or_insert(Held { read, now }).now.clone())
     }
 
-    /// Holds a file whose content is known, be it there or not; it cannot be written back.
+    /// Stores a file with known content, existing or not; it cannot be written back.
     pub(crate) fn hold(&self, place: &Path, content: Arc<[u8]>) {
         let read = Snapshot::of_text(place, content.clone());
         self.files().entry(place.to_owned()).or_insert(Held { read, now: content });
     }
 
-    /// Gives a file that is held new content.
+    /// Sets new content of a stored file.
     pub(crate) fn set(&self, place: &Path, content: Vec<u8>) {
         if let Some(held) = self.files().get_mut(place) {
             held.now = content.into();
         }
     }
 
-    /// Takes over the files of another, but for those that are here already.
+    /// Merges the files of another, except those already here.
     pub(crate) fn take_over(&self, others: Self) {
         let others = others.0.into_inner().unwrap_or_else(PoisonError::into_inner);
         let mut files = self.files();

@@ -6,7 +6,7 @@ use std::fs::File;
 use std::io::{BufRead, Read, stdin};
 use std::path::Path;
 
-/// The number of bytes by which a file without `.toml` is recognised.
+/// The number of bytes inspected of a file without `.toml`.
 const LOOKED_AT: u64 = 8 * 1024;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,12 +16,12 @@ pub(crate) enum Kind {
     Scene,
 }
 
-/// The kind of a file: a scene by its name, or by what it begins with where its name says nothing.
+/// The kind of a file: a scene by its name, or by its content where the name does not tell.
 pub(crate) fn kind_of(path: &Path) -> Kind {
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_ascii_lowercase());
     let begins_as_scene = || match beginning(path) {
         Some(bytes) => is_scene(&bytes),
-        // What cannot be read is said by who reads it.
+        // Read errors are reported by the reader.
         None => false,
     };
     match extension.as_deref() {
@@ -32,7 +32,7 @@ pub(crate) fn kind_of(path: &Path) -> Kind {
     }
 }
 
-/// Refuses a scene where a deck is expected: read as one it is rows without a keyword, and nothing would be said of them.
+/// Rejects a scene where a deck is expected: as a deck it would be rows without a keyword, without any findings.
 pub(crate) fn refuse_scene(path: &Path) -> Result<(), Failure> {
     if kind_of(path) == Kind::Deck {
         return Ok(());
@@ -43,19 +43,19 @@ pub(crate) fn refuse_scene(path: &Path) -> Result<(), Failure> {
     )))
 }
 
-/// The first bytes of a file; those of standard input stay to be read.
+/// The first bytes of a file; those of standard input are not consumed.
 fn beginning(path: &Path) -> Option<Vec<u8>> {
     if path.as_os_str() == STANDARD_STREAM {
         return stdin().lock().fill_buf().ok().map(<[u8]>::to_vec);
     }
-    // What is no regular file can be read only once.
+    // Anything but a regular file can be read only once.
     path.metadata().ok().filter(std::fs::Metadata::is_file)?;
     let mut bytes = Vec::new();
     File::open(path).ok()?.take(LOOKED_AT).read_to_end(&mut bytes).ok()?;
     Some(bytes)
 }
 
-/// Whether a text begins as a scene does: with a table, or a key and a value, and some line with a table or `deck`; and has no keyword line.
+/// Whether a text looks like a scene: it begins with a table, or a key and a value, has some line with a table or `deck`, and no keyword line.
 fn is_scene(bytes: &[u8]) -> bool {
     let lines = bytes.split(|byte| *byte == b'\n').map(<[u8]>::trim_ascii);
     let mut lines = lines.filter(|line| !line.is_empty() && !line.starts_with(b"#")).peekable();

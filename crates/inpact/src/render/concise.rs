@@ -20,7 +20,7 @@ fn of_deck(found: &Diagnostic, sources: Sources<'_>) -> String {
     format!("{file}:{}:{}: {severity}[{code}] {message}{included}", place.line, place.column)
 }
 
-/// Cells are named in messages: no column; the remedy comes with it, since there is no excerpt to read it below.
+/// Cells are named in messages, so there is no column; the help is included, since there is no excerpt.
 fn of_data(found: &Diagnostic) -> String {
     let Diagnostic { code, severity, message, primary, .. } = found;
     let file = &primary.file;

@@ -20,7 +20,7 @@ pub(super) struct Excerpt {
     pieces: Vec<Piece>,
 }
 
-/// Some whole lines, or the part of an endless one around a label.
+/// Some whole lines, or the part of a very long one around a label.
 #[derive(Debug)]
 struct Piece {
     /// Offset in the file.
@@ -61,7 +61,7 @@ impl Piece {
         for _ in 0..context {
             end = end_of_line(bytes, (end + 1).min(bytes.len()));
         }
-        // Of endless lines only what is near; whole lines otherwise.
+        // Of very long lines only the surroundings; whole lines otherwise.
         let mut column = 0;
         if from - start > 3 * SIDE {
             (start, lines_before) = (from - SIDE, 0);
@@ -115,7 +115,7 @@ impl SourceCode for Excerpt {
         let holds = |piece: &&Piece| piece.start <= from && to <= piece.end();
         let begins = |piece: &&Piece| piece.start <= from && from <= piece.end();
         let piece = self.pieces.iter().find(holds);
-        // A label longer than what is shown is cut; two labels that no piece holds together stay apart.
+        // A label longer than the shown part is truncated; two labels that do not fit into one piece stay separate.
         let piece = piece.or_else(|| self.pieces.iter().find(|piece| begins(piece) && span.len() > 8 * SIDE));
         let piece = piece.ok_or(MietteError::OutOfBounds)?;
         let (from, to) = (from - piece.start, (to - piece.start).min(piece.text.len()));

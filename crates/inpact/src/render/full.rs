@@ -20,7 +20,7 @@ pub(super) fn write(found: &Diagnostic, sources: Sources<'_>, style: Style) -> S
         GraphicalReportHandler::new_themed(theme).with_links(false).with_width(100).with_context_lines(CONTEXT);
     let excerpt = Excerpt::around(sources, labels(found), CONTEXT);
     let mut text = String::new();
-    // Only the writer could fail, and it is a string.
+    // Only the writer could fail, which is a string.
     let _ = handler.render_report(&mut text, &Rendered { found, excerpt, sources });
     text.push('\n');
     text

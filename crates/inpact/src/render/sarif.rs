@@ -8,7 +8,7 @@ use inpact_parser::span::Position;
 use inpact_validation::{Diagnostic, Label};
 use serde_json::{Value, json};
 
-/// The name of the fingerprint; its number rises when the way to compute it changes.
+/// The name of the fingerprint; its number is increased when its computation changes.
 const FINGERPRINT: &str = "inpact/v1";
 
 /// The frame around the results of a check.
@@ -16,12 +16,12 @@ pub(super) fn document() -> Document {
     with("")
 }
 
-/// A run that has more to say than its findings.
+/// A run with data besides its findings.
 #[derive(Debug, Default)]
 pub(crate) struct Run {
-    /// The notes and the summary, a line each.
+    /// The notes and the summary, one line each.
     pub(crate) notes: Vec<String>,
-    /// The reason why it could not go on.
+    /// The reason why it could not continue.
     pub(crate) failure: Option<String>,
 }
 
@@ -78,7 +78,7 @@ pub(super) fn results(diagnostics: &[Diagnostic], sources: Sources<'_>) -> Strin
     let mut occurrences = std::collections::HashMap::new();
     let results = diagnostics.iter().map(|found| {
         let mut print = fingerprint(found, sources);
-        // The second of two findings that look alike is distinguished by being the second.
+        // Equal findings are distinguished by their count.
         let count = occurrences.entry(print).or_insert(0_u64);
         *count += 1;
         print = hash(print, &count.to_le_bytes());
@@ -134,7 +134,7 @@ fn location(label: &Label, sources: Sources<'_>) -> Value {
     json!({"physicalLocation": {"artifactLocation": artifact, "region": region}})
 }
 
-/// The place after the last character of a label; without it a region goes on to the end of its line (SARIF 3.30.8).
+/// The position after the last character of a label; without it a region extends to the end of its line (SARIF 3.30.8).
 ///
 /// `None` where the scan did not keep the text.
 fn end(label: &Label, sources: Sources<'_>) -> Option<Position> {
@@ -148,7 +148,7 @@ fn end(label: &Label, sources: Sources<'_>) -> Option<Position> {
     Some(Position { line: label.position.line + count_line_ends(text), column: first_column + characters })
 }
 
-/// A path as a relative reference: what a URI cannot hold is percent-encoded.
+/// A path as a relative reference, percent-encoded.
 fn uri(path: &str) -> String {
     let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"-._~/+@=".contains(&byte);
     let encode = |byte: u8| if is_plain(byte) { char::from(byte).to_string() } else { format!("%{byte:02X}") };

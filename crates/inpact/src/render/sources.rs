@@ -8,7 +8,7 @@ use inpact_parser::deck::{Deck, Excerpts};
 pub(crate) enum Sources<'a> {
     /// The files of a deck, which keeps what is interpreted.
     Deck(&'a Deck),
-    /// Node tables, scenes and the tables beside them: a finding holds the lines around it.
+    /// Node tables, scenes and their tables: a finding holds the lines around it.
     Data,
 }
 
@@ -16,7 +16,7 @@ pub(crate) enum Sources<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Shown {
     Yes,
-    /// They must not be: the file is none of the deck's own.
+    /// They must not be: the file lies outside of the deck's folder.
     Withheld,
     /// There are none: the file has no lines, or they were not kept.
     No,

@@ -8,7 +8,7 @@ use crate::curves::{Curve, Panel, Reach, Side, number};
 use serde_json::{Value, json};
 use std::collections::HashMap;
 
-/// The panels of one law, of which the first can be asked by pointing at it.
+/// The panels of one law, the first of which shows values on hover.
 pub(super) fn law(page: &mut Page, id: &str, panels: &[&Panel]) {
     for (number, panel) in panels.iter().enumerate() {
         let is_live = number == 0 && panel.fault.is_none();
@@ -95,7 +95,7 @@ fn data(panel: &Panel) -> Value {
     })
 }
 
-/// The abscissae of all curves, ascending, each once.
+/// The distinct abscissae of all curves, ascending.
 fn abscissae(panel: &Panel, side: Side) -> Vec<f64> {
     let samples = panel.curves.iter().flat_map(|curve| &curve.branch(side).samples);
     let mut abscissae: Vec<f64> = samples.map(|sample| sample.x).collect();
@@ -117,7 +117,7 @@ fn values(curve: &Curve, side: Side, abscissae: &[f64]) -> Value {
     json!({"y": y, "continued": continued, "knots": knots, "rows": rows})
 }
 
-/// The interfaces in space, a drawing a result.
+/// The interfaces in space, one drawing per result.
 pub(super) fn surfaces(page: &mut Page, surfaces: &[Surface]) {
     for surface in surfaces {
         page.element("h3", &[], &format!("{} on the interfaces", surface.output));
@@ -130,7 +130,7 @@ pub(super) fn surfaces(page: &mut Page, surfaces: &[Surface]) {
 
 /// Sums over interfaces: a drawing of those with several times, a table of all.
 pub(super) fn histories(page: &mut Page, histories: &[History]) {
-    /// The most rows of the table of one sum.
+    /// The maximum number of rows of the table of one sum.
     const MOST_TIMES: usize = 200;
     for history in histories {
         page.element("h3", &[], &format!("{} of {}, over all nodes", history.output, history.interaction));

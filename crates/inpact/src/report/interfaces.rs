@@ -7,16 +7,16 @@ use crate::text::counted;
 use inpact_parser::model::{Interaction, Model, TableOf};
 use inpact_parser::span::Span;
 
-/// The most rows of a table that are shown.
+/// The maximum number of rows of a table shown.
 const MOST_ROWS: usize = 200;
 
-/// The most lines of another option.
+/// The maximum number of lines of another option.
 const MOST_LINES: usize = 20;
 
-/// The most interactions that have a section of their own.
+/// The maximum number of interactions with a separate section.
 const MOST_INTERACTIONS: usize = 400;
 
-/// Where a row of a table stands, in the deck and on the page.
+/// The location of a row of a table, in the deck and on the page.
 pub(super) struct RowPlace {
     pub(super) span: Span,
     interaction: usize,
@@ -98,7 +98,7 @@ impl Report<'_> {
 }
 
 fn uses(model: &Model, interaction: &Interaction) -> Vec<String> {
-    /// The most pairs that are named.
+    /// The maximum number of pairs named.
     const MOST: usize = 20;
     let pairs = model
         .contact_pairs
@@ -161,7 +161,7 @@ fn options(interaction: &Interaction) -> Vec<String> {
     options
 }
 
-/// A table row by row, as the deck has it.
+/// A table row by row, as in the deck.
 fn rows(page: &mut Page, of: &TableOf<'_>, (interaction, table): (usize, usize)) {
     let count = of.table.row_count();
     page.open("details", &[]);

@@ -13,7 +13,7 @@ const UPLOT_LICENSE: &str = include_str!("uplot/LICENSE");
 const SCRIPT: &str = include_str!("page.js");
 const STYLE: &str = include_str!("page.css");
 
-/// A page that grows element by element.
+/// A page under construction.
 pub(super) struct Page {
     text: String,
 }
@@ -104,7 +104,7 @@ impl Page {
     }
 }
 
-/// A text for an element or a quoted attribute, with what is not to be seen made visible.
+/// A text for an element or a quoted attribute, with invisible characters made visible.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for character in visible(text).chars() {
@@ -120,7 +120,7 @@ fn escaped(text: &str) -> String {
     out
 }
 
-/// JSON without a character that HTML or an old JavaScript reads in its own way; it means the same.
+/// Equivalent JSON without characters that are special in HTML or old JavaScript.
 fn harmless(json: &str) -> String {
     let mut out = String::with_capacity(json.len());
     for character in json.chars() {
@@ -155,7 +155,7 @@ mod tests {
         );
     }
 
-    /// The built file is what its registry package has, untouched.
+    /// The built file is unchanged from its registry package.
     #[test]
     fn the_charting_library_is_the_pinned_one() {
         let hash = |text: &str| Sha256::digest(text).iter().map(|byte| format!("{byte:02x}")).collect::<String>();

@@ -17,10 +17,10 @@ use inpact_validation::fixable;
 use similar::{Algorithm, DiffOp, capture_diff_slices};
 use std::collections::BTreeMap;
 
-/// The kind of the action that mends all that is safe to mend: what an editor does on saving where it is told to.
+/// The kind of the action that applies all safe fixes, which an editor may run on save.
 const FIX_ALL: &str = "source.fixAll.inpact";
 
-/// How often a document is looked at again: a fix may bring another finding to light, but not for ever.
+/// The maximum number of rounds: a fix may reveal another finding, but not endlessly.
 const MOST_ROUNDS: usize = 10;
 
 pub(super) fn actions(
@@ -45,7 +45,7 @@ pub(super) fn actions(
         actions.extend(for_other_dialect(view, selected, &here));
         actions.extend(here.iter().filter_map(|finding| silence(view, finding)));
     }
-    // Asked for by name, or offered in a menu; never for what is merely under the cursor.
+    // Requested by name, or offered in a menu; never just for the cursor position.
     if is_wanted(FIX_ALL) && only.is_some() {
         actions.extend(fix_all(view));
     }
@@ -87,9 +87,9 @@ fn edit_of(view: View<'_>, fix: &Fix) -> WorkspaceEdit {
     workspace_edit(view, edits)
 }
 
-/// A comment above the block that silences the rule there.
+/// A comment above the block that suppresses the rule there.
 fn silence(view: View<'_>, finding: &found::Diagnostic) -> Option<CodeAction> {
-    // What is wrong with such a comment is mended, not silenced.
+    // Faults of such a comment are fixed, not suppressed.
     if finding.code == "S018" {
         return None;
     }
@@ -130,7 +130,7 @@ fn for_other_dialect(view: View<'_>, selected: Span, here: &[&found::Diagnostic]
     found.filter_map(|finding| mend(other_view, finding, &format!("Mend for {name}: "))).collect()
 }
 
-/// All safe fixes of the document, over and over until there are none left.
+/// All safe fixes of the document, repeated until there are none left.
 fn fix_all(view: View<'_>) -> Option<CodeAction> {
     let before = view.text_of(view.source)?;
     let mut text = before.clone();
@@ -153,7 +153,7 @@ fn fix_all(view: View<'_>) -> Option<CodeAction> {
     })
 }
 
-/// Applies the safe fixes of a deck that are wholly in one of its files; gives how many.
+/// Applies the safe fixes of a deck that are entirely in one of its files; returns their number.
 fn mend_once(analysis: &Analysis, view: View<'_>, text: &mut EditedText) -> usize {
     let Some(source) = analysis.source_of(view.place()) else { return 0 };
     let all = fixable(&analysis.deck, analysis.settings.grammar, &analysis.model, &analysis.problems);
@@ -167,7 +167,7 @@ fn mend_once(analysis: &Analysis, view: View<'_>, text: &mut EditedText) -> usiz
                     || other.span.start() == edit.span.start()
             })
         };
-        // A fix is whole or not at all.
+        // A fix is applied as a whole or not at all.
         if fix.edits.iter().all(|edit| edit.span.source() == source && !overlaps(edit)) {
             taken.extend(&fix.edits);
             mended += 1;
@@ -180,7 +180,7 @@ fn mend_once(analysis: &Analysis, view: View<'_>, text: &mut EditedText) -> usiz
     mended
 }
 
-/// Edits that make one text of another, line by line.
+/// Edits that turn one text into another, line by line.
 fn changes(view: View<'_>, before: &EditedText, after: &EditedText) -> Vec<TextEdit> {
     let (shared, shared_end) = after.shared_with(before);
     let old = before.bytes(shared..before.length() - shared_end);

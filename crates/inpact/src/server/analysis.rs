@@ -11,7 +11,7 @@ use inpact_validation::check_watched;
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-/// A deck with what it includes.
+/// A deck with its included files.
 #[derive(Debug)]
 pub(super) struct Analysis {
     pub(super) settings: Settings,
@@ -20,29 +20,29 @@ pub(super) struct Analysis {
     pub(super) problems: Vec<Problem>,
     /// The findings of `inpact check`.
     pub(super) findings: Vec<Diagnostic>,
-    /// The fault of the configuration, which is left aside then.
+    /// The fault of the configuration, which is then ignored.
     pub(super) fault: Option<Fault>,
-    /// Where its files are, by source.
+    /// The paths of its files, by source.
     places: Vec<PathBuf>,
-    /// The same deck for the other solver, once somebody has asked for it.
+    /// The same deck for the other solver, computed lazily.
     other: OnceCell<Box<Analysis>>,
 }
 
-/// A configuration that cannot be read, or says what it cannot say.
+/// A configuration that cannot be read, or is invalid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Fault {
-    /// The configuration; the deck itself where it is not known.
+    /// The configuration; the deck itself where it is unknown.
     pub(super) place: PathBuf,
     pub(super) message: String,
 }
 
 impl Analysis {
-    /// Reads the deck at `root`, which need not be on disk, and checks it; unwinds where the options say that nobody wants it any more.
+    /// Reads the deck at `root`, which need not be on disk, and checks it; unwinds where the options request it.
     pub(super) fn of(root: &Path, options: &ReadOptions) -> Self {
         let (settings, fault) = Self::settings_of(root, options);
         let (deck, places) = match input::read_located_deck(root, Keep::Interpreted, &settings, None) {
             Ok(LocatedDeck { deck, places }) => (deck, places),
-            // It is open, so that nothing but a root that it leads out of is in the way.
+            // It is open, so only a root can exclude it.
             Err(failure) => {
                 let fault = Fault { place: root.to_owned(), message: failure.to_string() };
                 return Self::nothing(root, settings, fault);
@@ -54,7 +54,7 @@ impl Analysis {
         Self { settings, deck, model, problems, findings, fault, places, other: OnceCell::new() }
     }
 
-    /// A deck of which nothing is known.
+    /// An empty deck.
     fn nothing(root: &Path, settings: Settings, fault: Fault) -> Self {
         let deck = inpact_parser::deck::scan(&root.display().to_string(), &[], settings.grammar);
         let (model, problems) = model::read(&deck, settings.grammar);
@@ -71,7 +71,7 @@ impl Analysis {
         }
     }
 
-    /// The settings for a deck; those without a configuration where that is no good.
+    /// The settings for a deck; those without a configuration where that is invalid.
     fn settings_of(root: &Path, options: &ReadOptions) -> (Settings, Option<Fault>) {
         match Settings::of(root, options) {
             Ok(settings) => (settings, None),
@@ -90,7 +90,7 @@ impl Analysis {
         self.other.get_or_init(|| Box::new(make()))
     }
 
-    /// Where its files are, the deck first; a file that is included twice is there twice.
+    /// The paths of its files, the deck first; a file that is included twice occurs twice.
     pub(super) fn places(&self) -> impl Iterator<Item = &PathBuf> {
         self.places.iter()
     }

@@ -7,7 +7,7 @@ use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Definition, Level};
 use inpact_parser::span::{SourceId, Span};
 
-/// A block with a keyword that is known, by its name at least.
+/// A block with a known keyword, at least by name.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Entry<'a> {
     pub(super) block: &'a Block,
@@ -18,14 +18,14 @@ pub(super) struct Entry<'a> {
 }
 
 impl<'a> Entry<'a> {
-    /// `None` for rows without a keyword, and for a keyword that nobody can tell.
+    /// `None` for rows without a keyword, and for an unknown keyword.
     pub(super) fn of(analysis: &'a Analysis, block: &'a Block) -> Option<Self> {
         let keyword = block.keyword.as_ref()?;
         let entry = analysis.settings.grammar.keyword(keyword.id()?);
         Some(Self { block, keyword, name: &entry.name, definition: entry.definition() })
     }
 
-    /// The parameter of that name that counts, the last one.
+    /// The parameter of that name in force, the last one.
     pub(super) fn parameter(&self, name: &str) -> Option<Parameter> {
         let definition = self.definition?;
         let is_meant = |given: &Parameter| given.index().is_some_and(|index| definition.parameters[index].name == name);
@@ -36,19 +36,19 @@ impl<'a> Entry<'a> {
         self.parameter(name).is_some()
     }
 
-    /// The value of a parameter of that name, as it is written, whether the grammar has the parameter or not.
+    /// The value of a parameter of that name as written, whether or not the grammar has the parameter.
     pub(super) fn value_written(&self, view: View<'_>, name: &str) -> Option<Span> {
         let is_meant = |given: &Parameter| is_same(&view.text(given.name), name);
         self.keyword.parameters().rev().find(is_meant)?.value
     }
 
-    /// Where all of its rows are, in whatever files.
+    /// The spans of all its rows, in all files.
     pub(super) fn rows(&self) -> impl Iterator<Item = Span> + use<'a> {
         self.block.all_rows()
     }
 }
 
-/// Whether a word is that name, blanks and case not counted (S-11).
+/// Whether a word is that name, ignoring blanks and case (S-11).
 pub(super) fn is_same(written: &[u8], name: &str) -> bool {
     let fold = |byte: &u8| (!byte.is_ascii_whitespace()).then(|| byte.to_ascii_uppercase());
     written.iter().filter_map(fold).eq(name.as_bytes().iter().filter_map(fold))
@@ -62,13 +62,13 @@ pub(super) fn entries(analysis: &Analysis) -> impl Iterator<Item = Entry<'_>> {
     })
 }
 
-/// The block that a byte of a document lies in; at the border of two the one that begins there.
+/// The block of a byte of a document; at a boundary the one that begins there.
 pub(super) fn block_at(analysis: &Analysis, source: SourceId, offset: u64) -> Option<&Block> {
     let blocks = analysis.deck.blocks().iter().filter(|block| block.rows().source() == source);
     blocks.take_while(|block| block.span().start() <= offset).last()
 }
 
-/// The block with a keyword whose row a byte is part of, though it may stand in another file.
+/// The block with a keyword to whose rows a byte belongs, possibly in another file.
 pub(super) fn owner_at(analysis: &Analysis, source: SourceId, offset: u64) -> Option<Entry<'_>> {
     let block = block_at(analysis, source, offset)?;
     if block.keyword.is_some() {
@@ -78,7 +78,7 @@ pub(super) fn owner_at(analysis: &Analysis, source: SourceId, offset: u64) -> Op
     Entry::of(analysis, owner)
 }
 
-/// A text with every `<parameter>` in it replaced; one without a value stays as it is.
+/// A text with every `<parameter>` in it replaced; one without a value is unchanged.
 pub(super) fn substituted(analysis: &Analysis, text: &str) -> String {
     substitute(text, &analysis.model.parameters).map_or_else(|_| text.to_owned(), |text| text.trim().to_owned())
 }
@@ -108,7 +108,7 @@ pub(super) fn pass_level<T>(open: &mut Vec<(Level, T)>, keyword: &str, kept: imp
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Context<'a> {
     pub(super) level: Level,
-    /// The last keyword above that is no sub-option of an interaction.
+    /// The last keyword above that is not a sub-option of an interaction.
     pub(super) parent: Option<&'a str>,
 }
 

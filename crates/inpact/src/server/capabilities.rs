@@ -24,7 +24,7 @@ pub(super) fn of_client(params: &InitializeParams) -> Traits {
     }
 }
 
-/// The unit that columns are counted in: the first that the client offers and that we know; UTF-16 is what everybody knows.
+/// The unit of columns: the first one offered by the client that is supported here; UTF-16 is the default.
 pub(super) fn column_unit(params: &InitializeParams) -> ColumnUnit {
     let offered = params.capabilities.general.as_ref().and_then(|general| general.position_encodings.as_ref());
     let known = |kind: &PositionEncodingKind| match kind {

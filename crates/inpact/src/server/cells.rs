@@ -8,7 +8,7 @@ use inpact_parser::model::{MOST_FIELD_VARIABLES, Table};
 use inpact_parser::number::read_integer;
 use inpact_parser::span::Span;
 
-/// A row: its cells, on however many lines.
+/// A row: its cells, on one or more lines.
 #[derive(Debug)]
 pub(super) struct Row<'a> {
     pub(super) cells: Vec<Cell<'a>>,
@@ -18,7 +18,7 @@ pub(super) struct Row<'a> {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell<'a> {
     pub(super) span: Span,
-    /// Its place among the columns, from 0.
+    /// Its index among the columns, from 0.
     pub(super) index: usize,
     pub(super) column: ColumnOf<'a>,
 }
@@ -45,7 +45,7 @@ impl ColumnOf<'_> {
         }
     }
 
-    /// The dimension of a number; field variables have whatever the deck gives them.
+    /// The dimension of a number; that of field variables depends on the deck.
     pub(super) fn dimension(self) -> Option<String> {
         match self {
             Self::Named(column) => column.dimension.map(|dimension| dimension.to_string()),
@@ -69,16 +69,16 @@ impl ColumnOf<'_> {
     }
 }
 
-/// The columns of a row and how they lie on its lines.
+/// The columns of a row and their layout on lines.
 struct Layout<'a> {
     columns: Vec<ColumnOf<'a>>,
-    /// How many items the first line takes, and every further one.
+    /// The number of items on the first line, and on every further one.
     first_line: usize,
     following: usize,
 }
 
 impl<'a> Layout<'a> {
-    /// `None` where nothing is known of the rows, or they are ignored.
+    /// `None` where the rows are unknown, or ignored.
     fn of(analysis: &Analysis, entry: &Entry<'a>) -> Option<Self> {
         let definition: &'a Definition = entry.definition?;
         let data = &definition.data;
@@ -121,7 +121,7 @@ pub(super) fn rows<'a>(analysis: &'a Analysis, entry: &Entry<'a>) -> impl Iterat
         }
         let width = layout.columns.len();
         let mut cells = on_line(&first, &layout.columns, 0);
-        // A row that stands on one line although it should go over several (K-53) has all its items there.
+        // A row on one line that should span several (K-53) has all its items there.
         let mut taken = if cells.len() == width { width } else { layout.first_line.min(width) };
         cells.truncate(taken.max(1));
         if matches!(shape, Some(RowShape::Table | RowShape::HeadedTable | RowShape::Line)) {

@@ -30,7 +30,7 @@ pub(super) fn complete(
 
 struct Place<'a> {
     view: View<'a>,
-    /// Up to where the text is given.
+    /// The cursor position.
     offset: u64,
     /// The line up to there, and where it begins.
     before: Vec<u8>,
@@ -68,7 +68,7 @@ impl<'a> Place<'a> {
             .iter()
             .map(|rule| item(rule))
             .chain(
-                // The word itself, where it is not there yet.
+                // The directive itself, if it is not typed yet.
                 (!before.contains("ignore"))
                     .then(|| self.item("ignore", CompletionItemKind::Keyword, word, "ignore ".to_owned())),
             )
@@ -102,7 +102,7 @@ impl<'a> Place<'a> {
         let grammar = self.view.analysis.settings.grammar;
         let context = blocks::context_at(self.view.analysis, self.view.source, self.start);
         let typed = text.trim_ascii_start().len();
-        // What stands after the cursor stays: then a snippet would be too much.
+        // Text after the cursor is kept: then a snippet would be too much.
         let is_alone = self.after.trim_ascii().is_empty();
         let listed = grammar.keywords().filter(|(id, _)| grammar.has(*id));
         let items = listed.filter_map(|(_, keyword)| {
@@ -197,7 +197,7 @@ impl<'a> Place<'a> {
             let text = self.view.text(Span::new(self.view.source, start, self.offset));
             return self.on_keyword_line(start, &text);
         }
-        // A keyword line that ends in a comma goes on here as soon as there is something.
+        // A keyword line that ends in a comma continues here.
         if entry.keyword.dangling_comma().is_some() && entry.block.rows().start() == self.start && self.after.is_empty()
         {
             return Some(self.parameters(&entry, &self.before));
@@ -242,7 +242,7 @@ impl<'a> Place<'a> {
         found
     }
 
-    /// An item that takes the place of what is typed so far.
+    /// An item that replaces the typed text.
     fn item(&self, label: &str, kind: CompletionItemKind, typed: usize, new_text: String) -> CompletionItem {
         let span = Span::new(self.view.source, self.offset - typed as u64, self.offset);
         CompletionItem {
@@ -263,7 +263,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// Where in a list a keyword comes that may stand here; `None` for one that may not.
+/// The sort order of a keyword that is valid here; `None` for one that is not.
 fn order_of(definition: &Definition, context: Context<'_>) -> Option<u8> {
     let is_in = |parent: &str| context.parent == Some(parent);
     let has_open_parent = definition.parents.iter().any(|parent| is_in(parent));

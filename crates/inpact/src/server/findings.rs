@@ -10,10 +10,10 @@ use inpact_diagnostics::{self as found, Severity};
 use inpact_parser::span::{SourceId, Span};
 use std::collections::BTreeMap;
 
-/// Rules whose findings are about something that has no effect.
+/// Rules whose findings concern text without effect.
 const WITHOUT_EFFECT: [&str; 5] = ["R002", "C001", "K011", "T011", "S018"];
 
-/// Findings in every file, by its URI, with the version of the document; documents without findings are there too.
+/// Findings in every file, by its URI, with the version of the document; including documents without findings.
 pub(super) fn by_file(workspace: &Workspace) -> BTreeMap<String, (Option<i32>, Vec<Diagnostic>)> {
     let mut files: BTreeMap<String, (Option<i32>, Vec<Diagnostic>)> = BTreeMap::new();
     for analysis in workspace.analyses() {
@@ -38,7 +38,7 @@ pub(super) fn by_file(workspace: &Workspace) -> BTreeMap<String, (Option<i32>, V
     files
 }
 
-/// Adds a finding; a file that two decks include has the same one twice, which is said once with the places of both.
+/// Adds a finding; one in a file that two decks include occurs twice, and is reported once with the places of both.
 fn merge(diagnostics: &mut Vec<Diagnostic>, found: Diagnostic) {
     let is_same = |other: &&mut Diagnostic| {
         (&other.range, &other.code, &other.message) == (&found.range, &found.code, &found.message)
@@ -98,18 +98,18 @@ fn page_of(code: &str) -> Option<Uri> {
     Some(Uri(format!("{}/blob/main/docs/rules.md#{anchor}", env!("CARGO_PKG_REPOSITORY"))))
 }
 
-/// A span without the line end at its end: an editor underlines what is there.
+/// A span without the final line end, for underlining.
 fn visible_range(view: View<'_>, span: Span) -> Range {
     let trimmed = view.text_of(span.source()).map_or(span.len(), |text| {
         let bytes = text.bytes(span.start()..span.end());
-        // Of a long span only the end matters.
+        // Only the end of a long span matters.
         bytes.trim_ascii_end().len() as u64
     });
     let end = if trimmed == 0 { span.end() } else { span.start() + trimmed };
     view.range(Span::new(span.source(), span.start(), end))
 }
 
-/// A configuration that is no good, shown where it begins.
+/// An invalid configuration, reported at its beginning.
 fn of_configuration(message: &str) -> Diagnostic {
     let start = Position { line: 0, character: 0 };
     Diagnostic {

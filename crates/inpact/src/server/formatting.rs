@@ -16,7 +16,7 @@ pub(super) fn whole(
     Ok(Some(edits(view, super::findings::whole(view, view.source))))
 }
 
-/// The blocks that a selection touches are formatted, each as a whole: what stands below one another depends on all rows.
+/// The blocks that a selection touches are formatted, each as a whole: alignment depends on all rows.
 pub(super) fn range(
     workspace: &mut Workspace,
     params: &DocumentRangeFormattingParams,
@@ -29,7 +29,7 @@ pub(super) fn range(
 fn edits(view: View<'_>, selected: Span) -> Vec<TextEdit> {
     let Some(text) = view.text_of(view.source) else { return Vec::new() };
     let grammar = view.analysis.settings.grammar;
-    // By itself, as `fmt` takes it: what the document includes, or is included by, does not count.
+    // On its own, as in `fmt`, independent of including and included files.
     let mut scanner = Scanner::new("", ScanOptions { grammar, keep: Keep::Interpreted });
     text.push_watched(&mut scanner, &|| view.workspace.stop.look());
     let deck = scanner.finish();
@@ -38,7 +38,7 @@ fn edits(view: View<'_>, selected: Span) -> Vec<TextEdit> {
     edits.map(|edit| narrowed(view, edit)).collect()
 }
 
-/// An edit without the lines at its beginning and at its end that stay as they are.
+/// An edit without unchanged lines at its beginning and its end.
 fn narrowed(view: View<'_>, edit: Edit) -> TextEdit {
     let before = view.text(Span::new(view.source, edit.span.start(), edit.span.end())).into_owned();
     let after = edit.replacement;

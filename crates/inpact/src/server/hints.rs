@@ -14,7 +14,7 @@ use inpact_parser::model::{TableKind, TableOf};
 use inpact_parser::span::Span;
 use serde_json::{Value, json};
 
-/// The most bytes of rows in which values of parameters are looked for at a time: an editor asks for what it shows.
+/// The maximum number of bytes of rows searched for parameters at a time: an editor requests only the visible part.
 const MOST_BYTES: u64 = 1 << 20;
 
 pub(super) fn hints(workspace: &mut Workspace, params: &InlayHintParams) -> Result<Option<Vec<InlayHint>>, Refusal> {
@@ -105,7 +105,7 @@ pub(super) fn lenses(workspace: &mut Workspace, params: &CodeLensParams) -> Resu
             continue;
         }
         let range = view.range(Span::new(keyword.source(), keyword.start(), keyword.start()));
-        // A command without a name is a text that nothing happens at, unless the editor has a command that draws what the argument names.
+        // A command without a name is plain text, unless the editor has a command that draws the table of the argument.
         let arguments = drawing(view, &of).map(|drawing| vec![drawing]);
         let command = Command { title: shape(of.table), tooltip: None, command: String::new(), arguments };
         lenses.push(CodeLens { range, command: Some(command), data: None });
@@ -115,7 +115,7 @@ pub(super) fn lenses(workspace: &mut Workspace, params: &CodeLensParams) -> Resu
     Ok(Some(lenses))
 }
 
-/// The drawing that `inpact plot` makes for a table, and the lines of the table: `None` for one that governs nothing or has no curve.
+/// The drawing that `inpact plot` makes for a table, and the lines of the table: `None` for one without effect or without a curve.
 fn drawing(view: View<'_>, of: &TableOf<'_>) -> Option<Value> {
     let interaction = of.interaction?;
     let governing = view.analysis.model.interactions.get(&interaction.name)?;

@@ -51,7 +51,7 @@ fn directive(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     Some((word, page::of_rule(rule)))
 }
 
-/// The bytes around a place that are of a kind.
+/// The bytes around a position that satisfy a predicate.
 fn word_at(view: View<'_>, within: Span, offset: u64, is_part: fn(&u8) -> bool) -> Option<Span> {
     let text = view.text(within);
     let at = usize::try_from(offset - within.start()).ok()?;
@@ -60,7 +60,7 @@ fn word_at(view: View<'_>, within: Span, offset: u64, is_part: fn(&u8) -> bool) 
     (before + after > 0).then(|| Span::new(within.source(), offset - before as u64, offset + after as u64))
 }
 
-/// `<name>`: its value, and where that comes from.
+/// `<name>`: its value, and its definition.
 fn parameter_reference(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     let (span, name) = parameter_at(view, offset)?;
     let Some(definition) = view.analysis.model.parameters.definition(&name) else {
@@ -72,7 +72,7 @@ fn parameter_reference(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     Some((span, text))
 }
 
-/// A place in words: file and line.
+/// A place as text: file and line.
 fn place_of(view: View<'_>, span: Span) -> String {
     let line = view.range(span).start.line + 1;
     let place = view.analysis.place(span.source());
@@ -104,7 +104,7 @@ fn on_parameter(entry: &Entry<'_>, given: Parameter) -> Option<(Span, String)> {
     Some((given.span(), text))
 }
 
-/// An interaction: what it has, and who uses it.
+/// An interaction: its sub-options and uses.
 fn interaction(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     let found = names::at(view, offset)?;
     if found.kind != Kind::Interaction {
@@ -150,7 +150,7 @@ fn interaction(view: View<'_>, offset: u64) -> Option<(Span, String)> {
     Some((found.span, text))
 }
 
-/// Text about a cell: column, dimension, what it is, row and group; for a conductance whether it lies beyond the table.
+/// Text about a cell: column, dimension, description, row and group; for a conductance the value beyond the table.
 fn cell_page(view: View<'_>, entry: &Entry<'_>, cell: &Cell<'_>) -> String {
     let column = cell.column;
     let dimension = column.dimension().map_or_else(String::new, |dimension| format!(" [{dimension}]"));
@@ -198,7 +198,7 @@ fn in_table(view: View<'_>, entry: &Entry<'_>, table: &Table, cell: &Cell<'_>) -
     }
     text += "\n";
     if cell.index == 1 && row + 1 == rows.end {
-        // T-27, Q-1: what carries heat ends with its table, what carries current or fluid goes on.
+        // T-27, Q-1: thermal tables drop to zero at their end, those of current and fluid continue.
         let is_zero = matches!(TableKind::of(entry.name, table), TableKind::ThermalClearance | TableKind::ViewFactor);
         text += if is_zero { "\nBeyond it nothing is conducted\n" } else { "\nBeyond it the last value holds\n" };
     }

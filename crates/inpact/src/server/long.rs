@@ -7,18 +7,18 @@ use inpact_parser::deck::{EditedText, TextInParts};
 use serde_json::Value;
 use std::io::{self, BufRead, Read, Take};
 
-/// The beginning of the mark of a long string; its number follows. Nobody writes a NUL.
+/// The prefix of the placeholder of a long string; its number follows. NUL does not occur in messages.
 const MARK: &str = "\u{0}long string ";
 
 #[derive(Debug, Default)]
 pub(super) struct LongMessage {
-    /// The JSON, with a mark for each long string.
+    /// The JSON, with a placeholder for each long string.
     pub(super) json: Vec<u8>,
-    /// The long strings, in their order.
+    /// The long strings, in order.
     pub(super) texts: Vec<EditedText>,
 }
 
-/// Takes the long string out whose mark a value is.
+/// Removes the long string of a placeholder.
 pub(super) fn take(value: &mut Value, texts: &mut [EditedText]) -> Option<EditedText> {
     let number: usize = value.as_str()?.strip_prefix(MARK)?.parse().ok()?;
     let text = std::mem::take(texts.get_mut(number)?);
@@ -29,7 +29,7 @@ pub(super) fn take(value: &mut Value, texts: &mut [EditedText]) -> Option<Edited
 /// Puts every long string back into its place.
 pub(super) fn put_back(value: &mut Value, texts: &mut [EditedText]) {
     if let Some(text) = take(value, texts) {
-        // It was found to be UTF-8 when it came.
+        // It was checked to be UTF-8 on arrival.
         *value = Value::String(String::from_utf8(text.to_bytes()).unwrap_or_default());
         return;
     }
@@ -48,10 +48,10 @@ pub(super) fn put_back(value: &mut Value, texts: &mut [EditedText]) {
     }
 }
 
-/// Why a long message is none.
+/// Reasons why a long message is invalid.
 #[derive(Debug)]
 pub(super) enum Fault {
-    /// The input broke off or failed.
+    /// The input ended or failed.
     Input(io::Error),
     /// A string that JSON does not allow; the rest of the message was skipped.
     Text(&'static str),
@@ -63,7 +63,7 @@ impl From<io::Error> for Fault {
     }
 }
 
-/// Reads a message of that many bytes; strings longer than `longest` are taken out.
+/// Reads a message of that many bytes; strings longer than `longest` are extracted.
 pub(super) fn read(input: &mut impl BufRead, length: u64, longest: usize) -> Result<LongMessage, Fault> {
     let mut input = input.take(length);
     let mut message = LongMessage::default();
@@ -77,7 +77,7 @@ pub(super) fn read(input: &mut impl BufRead, length: u64, longest: usize) -> Res
     found.map(|()| message)
 }
 
-/// The bytes of one message that are there; none at its end.
+/// The available bytes of one message; none at its end.
 fn available<R: BufRead>(input: &mut Take<R>) -> io::Result<&[u8]> {
     let is_over = input.limit() == 0;
     match input.fill_buf()? {
@@ -128,7 +128,7 @@ impl LongMessage {
             if is_end {
                 return Ok(());
             }
-            // What is escaped is never the end.
+            // An escaped quote is not the end.
             if let Some(byte) = available(input)?.first().copied() {
                 self.json.push(byte);
                 input.consume(1);
@@ -139,7 +139,7 @@ impl LongMessage {
         }
     }
 
-    /// Goes on with a string that is long: what of it stands in the JSON already comes first.
+    /// Continues a long string; its part already in the JSON comes first.
     fn long<R: BufRead>(&mut self, input: &mut Take<R>, start: usize) -> Result<(), Fault> {
         let begun = self.json.split_off(start);
         let mark = format!("{MARK}{}", self.texts.len());
@@ -162,15 +162,15 @@ impl LongMessage {
     }
 }
 
-/// Makes text of the inside of a string of JSON, as it comes.
+/// Decodes the content of a JSON string incrementally.
 #[derive(Debug, Default)]
 struct Decoder {
     parts: TextInParts,
-    /// The beginning of an escape, backslash included, whose end has not come.
+    /// An incomplete escape, including the backslash.
     escape: Vec<u8>,
-    /// The first half of a character beyond the first plane.
+    /// A high surrogate.
     high: Option<u32>,
-    /// The bytes of a character whose end has not come.
+    /// The bytes of an incomplete character.
     cut: Vec<u8>,
 }
 
@@ -181,7 +181,7 @@ struct Used {
 }
 
 impl Decoder {
-    /// Takes bytes up to the end of the string.
+    /// Consumes bytes up to the end of the string.
     fn push(&mut self, bytes: &[u8]) -> Result<Used, Fault> {
         let mut at = 0;
         while at < bytes.len() {
@@ -224,7 +224,7 @@ impl Decoder {
         };
         let whole = match std::str::from_utf8(bytes) {
             Ok(_) => bytes.len(),
-            // The end of a character may be in what comes next.
+            // A character may continue in the next bytes.
             Err(error) if error.error_len().is_none() => error.valid_up_to(),
             Err(_) => return Err(NOT_UTF8),
         };
@@ -241,7 +241,7 @@ impl Decoder {
         if self.high.is_none() { Ok(()) } else { Err(HALF) }
     }
 
-    /// Puts the character of an escape that is whole.
+    /// Adds the character of a complete escape.
     fn try_escape(&mut self) -> Result<(), Fault> {
         let character = match self.escape[..] {
             [_, b'u', a, b, c, d] => {
@@ -322,7 +322,7 @@ mod tests {
         ];
         let message = json!({"a": 1, "b": {"c": texts[1], "f": texts[3]}, "d": texts, "e": [true, null]});
         for json in [message.to_string(), serde_json::to_string_pretty(&message).expect("text")] {
-            // From where on a text is long; the names here have two bytes with their quote.
+            // The threshold of long texts; the names here have two bytes with their quote.
             for longest in 3..50 {
                 for capacity in 1..30 {
                     let found = whole(&json, longest, capacity).expect("a message");

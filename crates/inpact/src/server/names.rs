@@ -13,7 +13,7 @@ use inpact_parser::model::Name;
 use inpact_parser::span::Span;
 use std::collections::BTreeSet;
 
-/// Kinds of things with names.
+/// Kinds of names.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) enum Kind {
     Interaction,
@@ -44,20 +44,20 @@ impl Kind {
     }
 }
 
-/// A name where it stands.
+/// An occurrence of a name.
 #[derive(Debug, Clone)]
 pub(super) struct Occurrence {
     pub(super) kind: Kind,
     pub(super) name: Name,
     pub(super) span: Span,
     pub(super) is_definition: bool,
-    /// Whether nothing but the name tells of which kind it is.
+    /// Whether only the name determines its kind.
     pub(super) is_guess: bool,
     /// The part or instance that it is defined in; empty for what is not defined in one.
     pub(super) scope: String,
 }
 
-/// Kinds of things that a written word may name.
+/// Possible kinds of a written name.
 struct Meaning {
     kinds: &'static [Kind],
     is_definition: bool,
@@ -82,7 +82,7 @@ impl Meaning {
 /// Keywords that define a surface by NAME.
 const DEFINE_SURFACES: [&str; 4] = ["SURFACE", "SURFACE DEFINITION", "RIGID SURFACE", "CONTACT NODE SET"];
 
-/// The kind of thing that the value of a parameter names.
+/// The kind of name in the value of a parameter.
 fn meaning_of_value(keyword: &str, parameter: &[u8]) -> Option<Meaning> {
     let is = |name: &str| blocks::is_same(parameter, name);
     let surfaces = ["SURFACE", "MASTER", "SLAVE", "MAIN", "SECONDARY"];
@@ -91,7 +91,7 @@ fn meaning_of_value(keyword: &str, parameter: &[u8]) -> Option<Meaning> {
         _ if DEFINE_SURFACES.contains(&keyword) && is("NAME") => Meaning::defined(SURFACE),
         "NSET" | "NODE" | "NGEN" | "NFILL" | "NMAP" if is("NSET") => Meaning::defined(NODE_SET),
         "ELSET" | "ELEMENT" | "ELGEN" if is("ELSET") => Meaning::defined(ELEMENT_SET),
-        // *NSET, ELSET=X takes the nodes of a set of elements.
+        // *NSET, ELSET=X uses the nodes of an element set.
         _ if is("ELSET") => Meaning::used(ELEMENT_SET),
         _ if is("NSET") || is("REF NODE SET") => Meaning::used(NODE_SET),
         _ if is("INTERACTION") || is("INTERACTION PROPERTY") => Meaning::used(INTERACTION),
@@ -100,7 +100,7 @@ fn meaning_of_value(keyword: &str, parameter: &[u8]) -> Option<Meaning> {
     })
 }
 
-/// The kind of thing that an item of a row names, counted from 0; `None` for rows that hold no names.
+/// The kind of name in an item of a row, by index from 0; `None` for rows without names.
 fn meaning_of_item(entry: &Entry<'_>, view: View<'_>, item: usize) -> Option<Meaning> {
     let kinds = match entry.name {
         "CONTACT PROPERTY ASSIGNMENT" if item == 2 => INTERACTION,
@@ -112,7 +112,7 @@ fn meaning_of_item(entry: &Entry<'_>, view: View<'_>, item: usize) -> Option<Mea
             let kind = entry.value_written(view, "TYPE").map(|kind| view.shown(kind).to_ascii_uppercase());
             if kind.is_some_and(|kind| kind.starts_with("NODE")) { NODE_SET } else { ELEMENT_SET }
         }
-        // Numbers, or words that are no names.
+        // Numbers, or words that are not names.
         "SURFACE" | "NODE" | "ELEMENT" | "HEADING" | "PARAMETER" | "AMPLITUDE" | "NGEN" | "ELGEN" => return None,
         _ => {
             let is_interpreted = |definition: &inpact_parser::grammar::Definition| {
@@ -127,9 +127,9 @@ fn meaning_of_item(entry: &Entry<'_>, view: View<'_>, item: usize) -> Option<Mea
     Some(Meaning::used(kinds))
 }
 
-/// Goes through every name of a deck.
+/// Visits every name of a deck.
 ///
-/// Rows are read again from the text: most of them nobody keeps.
+/// Rows are read again from the text, as most are not kept.
 fn visit(view: View<'_>, wanted: &[Kind], mut take: impl FnMut(Meaning, &Entry<'_>, &[u8], Span, &str)) {
     let mut open: Vec<(Level, String)> = Vec::new();
     for entry in blocks::entries(view.analysis) {
@@ -155,7 +155,7 @@ fn visit(view: View<'_>, wanted: &[Kind], mut take: impl FnMut(Meaning, &Entry<'
                 view.workspace.stop.look();
                 for (index, range) in items(&text).enumerate() {
                     let item = &text[range.clone()];
-                    // Most items are numbers, which are no names.
+                    // Most items are numbers, not names.
                     if !item
                         .first()
                         .is_some_and(|byte| byte.is_ascii_alphabetic() || matches!(byte, b'_' | b'"' | b'<'))
@@ -186,7 +186,7 @@ fn last_part(text: &[u8], span: Span) -> (String, Span) {
     (part, Span::new(span.source(), span.start() + from as u64, span.end()))
 }
 
-/// Everything of that kind and name: definitions and uses, in the order of the deck.
+/// All occurrences of that kind and name: definitions and uses, in the order of the deck.
 pub(super) fn occurrences(view: View<'_>, kind: Kind, name: &Name) -> Vec<Occurrence> {
     if kind == Kind::Parameter {
         return occurrences_of_parameter(view, name);
@@ -270,7 +270,7 @@ fn inner(text: &[u8], range: std::ops::Range<usize>, line: Span) -> Span {
     line.part(start..start + within.trim_ascii().len())
 }
 
-/// The name at a place, as what it is there.
+/// The name at a position, with its kind.
 pub(super) fn at(view: View<'_>, offset: u64) -> Option<Occurrence> {
     if let Some((span, name)) = parameter_at(view, offset) {
         let inner = Span::new(span.source(), span.start() + 1, span.end() - 1);
@@ -324,13 +324,13 @@ pub(super) fn at(view: View<'_>, offset: u64) -> Option<Occurrence> {
             });
         }
     }
-    // Nothing defines it: of one kind it is all the same, where the keyword says which.
+    // Nothing defines it: the kind follows from the keyword, if that is unique.
     let (name, span) = candidates.into_iter().next()?;
     let kind = (!guess).then_some(meaning.kinds[0])?;
     Some(Occurrence { kind, name, span, is_definition: false, is_guess: false, scope: String::new() })
 }
 
-/// Whether the deck defines something of that kind by that name; looks at keyword lines alone.
+/// Whether the deck defines that kind and name, by keyword lines only.
 fn is_defined(view: View<'_>, kind: Kind, name: &Name) -> bool {
     let dialect = view.analysis.settings.grammar.dialect();
     let mut is_defined = false;
@@ -347,7 +347,7 @@ fn of_parameter(name: &str, span: Span) -> Occurrence {
     Occurrence { kind, name, span, is_definition: false, is_guess: false, scope: String::new() }
 }
 
-/// The names of a kind that the deck defines, each once, in the order of the deck.
+/// The distinct names of a kind that the deck defines, in the order of the deck.
 pub(super) fn defined_names(view: View<'_>, kind: Kind) -> Vec<Name> {
     let mut found: Vec<Name> = Vec::new();
     let mut seen = BTreeSet::new();

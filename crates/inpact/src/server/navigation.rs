@@ -31,7 +31,7 @@ pub(super) fn definition(
     Ok((!locations.is_empty()).then(|| Definition::LocationList(locations).into()))
 }
 
-/// The file that the *INCLUDE at a place names.
+/// The file of the *INCLUDE at a position.
 fn included_at(view: View<'_>, offset: u64) -> Option<SourceId> {
     view.analysis.deck.includes().iter().find_map(|include| {
         let name = include.name.filter(|name| name.touches(view.at(offset)));
@@ -104,7 +104,7 @@ pub(super) fn rename(workspace: &mut Workspace, params: &RenameParams) -> Result
     Ok(Some(workspace_edit(view, edits)))
 }
 
-/// Refuses what would rename more, or less, than is meant.
+/// Rejects a rename that would affect more, or less, than intended.
 fn refuse_unclear(view: View<'_>, found: &Occurrence) -> Result<(), Refusal> {
     let all = names::occurrences(view, found.kind, &found.name);
     let defined: Vec<&Occurrence> = all.iter().filter(|other| other.is_definition).collect();
@@ -137,7 +137,7 @@ fn refuse_unclear(view: View<'_>, found: &Occurrence) -> Result<(), Refusal> {
     Ok(())
 }
 
-/// Refuses a name that is none, or that is taken.
+/// Rejects an invalid name, or one that is taken.
 fn refuse_name(view: View<'_>, found: &Occurrence, new_name: &str) -> Result<(), Refusal> {
     let one = found.kind.one();
     let illegal = |why: &str| Err(Refusal::failed(format!("`{new_name}` is no name of {one}: {why}")));
@@ -167,7 +167,7 @@ fn refuse_name(view: View<'_>, found: &Occurrence, new_name: &str) -> Result<(),
     if is_taken { illegal("there is one of that name already") } else { Ok(()) }
 }
 
-/// Edits of files of a deck; those of open documents are for the version that we know.
+/// Edits of files of a deck; those of open documents are for the known version.
 pub(super) fn workspace_edit(view: View<'_>, edits: BTreeMap<SourceId, Vec<TextEdit>>) -> WorkspaceEdit {
     if !view.workspace.traits.knows_versions {
         let changes = edits.into_iter().map(|(source, edits)| (view.uri(source), edits));

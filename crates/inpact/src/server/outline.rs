@@ -14,22 +14,22 @@ use inpact_parser::deck::items;
 use inpact_parser::deck::lines::{LineKind, line_kind};
 use inpact_parser::span::Span;
 
-/// A part of a document with what is in it.
+/// A node of the outline with its children.
 #[derive(Debug)]
 struct Node<'a> {
     entry: Entry<'a>,
     /// From the keyword line to the end of the last row in it.
     span: Span,
     children: Vec<Node<'a>>,
-    /// The keywords that close it, and whether it is an interaction.
+    /// Which keywords close it.
     opens: Opens,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Opens {
-    /// *STEP and its like, up to the keyword of that name.
+    /// *STEP and similar keywords, up to the keyword of that name.
     Until(&'static str),
-    /// *SURFACE INTERACTION, up to the first keyword that is no sub-option.
+    /// *SURFACE INTERACTION, up to the first keyword that is not a sub-option.
     Interaction,
     Nothing,
 }
@@ -68,7 +68,7 @@ fn tree(view: View<'_>) -> Vec<Node<'_>> {
     roots
 }
 
-/// Closes the innermost of what is open, and puts it where it belongs.
+/// Closes the innermost open node, and adds it to its parent.
 fn close_last<'a>(open: &mut Vec<Node<'a>>, roots: &mut Vec<Node<'a>>) {
     let Some(mut node) = open.pop() else { return };
     if let Some(last) = node.children.last() {
@@ -153,7 +153,7 @@ fn fold(view: View<'_>, node: &Node<'_>, ranges: &mut Vec<FoldingRange>) {
     }
 }
 
-/// A span without blanks, line ends and whole lines of comments at its end: what stands before the next block belongs to that.
+/// A span without blanks, line ends and whole lines of comments at its end: comments before the next block belong to that.
 fn trimmed(view: View<'_>, span: Span) -> Span {
     let Some(text) = view.text_of(span.source()) else { return span };
     let mut end = span.end();
@@ -200,7 +200,7 @@ fn selection_at(view: View<'_>, tree: &[Node<'_>], offset: u64) -> SelectionRang
     if let Some((span, line)) = view.line_at(offset) {
         spans.push(span);
         spans.extend(items(line).map(|range| span.part(range)).find(|item| item.touches(view.at(offset))));
-        // On *CONTACT PAIR, INTERACTION=X the name by itself as well.
+        // On *CONTACT PAIR, INTERACTION=X the name alone as well.
         spans.extend(names::at(view, offset).map(|found| found.span));
     }
     let holding = spans.into_iter().filter(|span| span.touches(view.at(offset)));

@@ -4,7 +4,7 @@ use super::workspace::{View, Workspace};
 use gen_lsp_types as lsp;
 use lsp_server::{ErrorCode, RequestId, Response, ResponseError};
 
-/// Why a request has no answer.
+/// Reasons why a request fails.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Refusal {
     code: i32,
@@ -31,7 +31,7 @@ impl Refusal {
     }
 }
 
-/// The document of a request, where it stands in its deck.
+/// The document of a request, within its deck.
 ///
 /// # Errors
 /// For a document that is not open.

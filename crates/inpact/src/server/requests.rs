@@ -39,7 +39,7 @@ pub(super) fn answer(workspace: &mut Workspace, request: Request) -> Response {
     }
 }
 
-/// Answers a request by a function; a panic in it is an answer too, and so is work that is given up.
+/// Answers a request by a function; a panic or a cancellation in it becomes an error response.
 fn by<R: lsp::Request>(
     workspace: &mut Workspace,
     Request { id, method, params }: Request,
@@ -52,7 +52,7 @@ fn by<R: lsp::Request>(
             return Refusal::new(ErrorCode::InvalidParams, message).answer(id);
         }
     };
-    // What is open is changed by notifications only, and those change a copy: nothing is left half done.
+    // Open documents are changed by notifications only, on a copy, so the state is unwind-safe.
     match catch_unwind(AssertUnwindSafe(|| function(workspace, &params))) {
         Ok(Ok(result)) => Response::new_ok(id, result),
         Ok(Err(refusal)) => refusal.answer(id),

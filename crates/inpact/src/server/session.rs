@@ -41,7 +41,7 @@ impl Session {
             .map_err(|error| Refusal::new(ErrorCode::InvalidParams, format!("`initialize`: {error}")))?;
         let unit = capabilities::column_unit(&params);
         let mut workspace = Workspace::new(unit, capabilities::of_client(&params), stop);
-        // What is wrong with the settings is said when they come again; nothing may be sent before the answer.
+        // Faults of the settings are reported when they are sent again; nothing may be sent before the answer.
         if let Some(Ok(options)) = params.initialization_options.as_ref().map(options_of) {
             workspace.set_options(options);
         }
@@ -53,7 +53,7 @@ impl Session {
         requests::answer(&mut self.workspace, request)
     }
 
-    /// Takes what the editor tells; what cannot be read is said to the log.
+    /// Handles a notification; malformed ones are logged.
     pub(super) fn take<W: Write>(
         &mut self,
         Notification { method, params }: Notification,
@@ -91,7 +91,7 @@ impl Session {
         }
     }
 
-    /// Takes a document that is opened, whose text has come by itself.
+    /// Opens a document whose text was received separately.
     pub(super) fn open<W: Write>(
         &mut self,
         Notification { method, params }: Notification,
@@ -105,14 +105,14 @@ impl Session {
         taken.or_else(|error| log_error(client, format!("`{method}`: {error}")))
     }
 
-    /// Asks the editor to tell us when files change that decks may include, and configurations.
+    /// Registers for changes of files that decks may include, and of configurations.
     fn watch<W: Write>(&self, client: &mut Client<W>) -> io::Result<()> {
         if !self.workspace.traits.watches_files {
             return Ok(());
         }
         let watcher =
             |pattern: &str| FileSystemWatcher { glob_pattern: GlobPattern::Pattern(pattern.to_owned()), kind: None };
-        // Included files may be called anything, but are seldom something else.
+        // Included files may have any name, but mostly have one of these.
         let watchers = ["**/inpact.toml", "**/*.inp", "**/*.inc", "**/*.dat", "**/*.txt"].map(watcher).to_vec();
         let options = serde_json::json!({"watchers": watchers});
         let registration = Registration {
@@ -128,11 +128,11 @@ impl Session {
         self.has_news
     }
 
-    /// Tells the editor what is wrong now, where that is something else than before.
+    /// Publishes the current findings, where they have changed.
     pub(super) fn publish<W: Write>(&mut self, client: &mut Client<W>) -> io::Result<()> {
         self.has_news = false;
         let workspace = &mut self.workspace;
-        // A fault of ours in one deck must not end the session.
+        // A panic on one deck must not end the session.
         let found = catch_unwind(AssertUnwindSafe(|| {
             workspace.refresh();
             findings::by_file(workspace)
@@ -142,7 +142,7 @@ impl Session {
             return log_error(client, message);
         };
         for uri in self.published.keys() {
-            // What is wrong no more is said once.
+            // Removed findings are published once.
             found.entry(uri.clone()).or_default();
         }
         for (uri, (version, diagnostics)) in found {
@@ -173,18 +173,18 @@ impl Session {
     }
 }
 
-/// Says something in the log of the editor.
+/// Writes to the log of the editor.
 fn log_error<W: Write>(client: &mut Client<W>, message: String) -> io::Result<()> {
     client.notify("window/logMessage", LogMessageParams { kind: MessageType::Error, message })
 }
 
-/// Reads the parameters of a notification and takes them.
+/// Parses the parameters of a notification and handles it.
 fn with<T: DeserializeOwned>(params: Value, take: impl FnOnce(T)) -> Result<(), String> {
     let params = serde_json::from_value(params).map_err(|error| error.to_string())?;
     catch_unwind(AssertUnwindSafe(|| take(params))).map_err(|_| "failed by a fault of inpact".to_owned())
 }
 
-/// How decks are read by the settings of an editor, which may stand below `inpact` or by themselves.
+/// The read options from the settings of an editor, which may be below `inpact` or at the top level.
 fn options_of(settings: &Value) -> Result<ReadOptions, String> {
     let settings = settings.get("inpact").unwrap_or(settings);
     if settings.is_null() {

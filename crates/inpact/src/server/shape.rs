@@ -4,10 +4,10 @@ use crate::text::counted;
 use inpact_parser::model::Table;
 use std::collections::BTreeSet;
 
-/// How many values each independent variable has, the one that varies slowest first.
+/// The number of values of each independent variable, the slowest first.
 ///
-/// Variables that have one value throughout are left out, but for the first; a first variable with another number of values in
-/// each group is given from the least to the most.
+/// Constant variables are left out, except the first; a first variable with another number of values in
+/// each group is given as a range.
 pub(super) fn shape(table: &Table) -> String {
     let lengths: BTreeSet<usize> = table.groups().map(|group| group.len()).collect();
     let (Some(least), Some(most), Some(first)) = (lengths.first(), lengths.last(), table.columns.get(1)) else {
@@ -23,7 +23,7 @@ pub(super) fn shape(table: &Table) -> String {
     outer.chain([first]).collect::<Vec<_>>().join(" × ")
 }
 
-/// The name of one and that of several values of a column.
+/// The singular and plural of the values of a column.
 fn words(column: &str) -> (String, String) {
     let one = match column {
         "temp" => "temperature".to_owned(),

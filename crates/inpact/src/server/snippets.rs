@@ -31,7 +31,7 @@ pub(super) fn of_keyword(definition: &Definition, grammar: &Grammar) -> String {
 pub(super) fn of_parameter(parameter: &ParameterDefinition) -> String {
     let value = match parameter.kind {
         ParameterKind::Flag => return escaped(&parameter.name),
-        // The editor asks for names and files that there are.
+        // Existing names and files are offered by completion.
         ParameterKind::Label | ParameterKind::File => "$1".to_owned(),
         ParameterKind::Choice => {
             let choices: Vec<String> = parameter.choices.iter().map(|choice| escaped(choice)).collect();
@@ -46,7 +46,7 @@ pub(super) fn of_parameter(parameter: &ParameterDefinition) -> String {
 
 struct Snippet {
     text: String,
-    /// The number of the next place to fill in.
+    /// The number of the next placeholder.
     next: usize,
 }
 
@@ -66,7 +66,7 @@ impl Snippet {
         }
     }
 
-    /// A row whose items are places to fill in, with what stands between them.
+    /// A row whose items are placeholders, with the text between them.
     fn row(&mut self, deck: &Deck, line: Span, text: &[u8], items: impl Iterator<Item = Span>) {
         let mut from = line.start();
         for item in items {
@@ -86,7 +86,7 @@ impl Snippet {
     }
 }
 
-/// A text in a snippet: what means something there is escaped.
+/// An escaped text in a snippet.
 fn escaped(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for character in text.chars() {
@@ -98,7 +98,7 @@ fn escaped(text: &str) -> String {
     escaped
 }
 
-/// A snippet without its places: what an editor that knows no snippets inserts.
+/// A snippet without placeholders, for editors without snippet support.
 pub(super) fn plain(snippet: &str) -> String {
     let mut text = String::new();
     let mut characters = snippet.chars().peekable();
@@ -157,7 +157,7 @@ mod tests {
             let text = format!("{parent}{}\n", plain(&of_keyword(definition, grammar)));
             let deck = scan("snippet", text.as_bytes(), grammar);
             let (model, problems) = model::read(&deck, grammar);
-            // What it refers to, or stands in, is elsewhere: rows and parameters are what counts.
+            // Its references and context are elsewhere: only rows and parameters matter.
             let of_rows = |code: &str| {
                 matches!(code.as_bytes()[0], b'T') || matches!(code, "S006" | "S007" | "K004" | "K007" | "K010")
             };

@@ -21,7 +21,7 @@ const PARAMETER: u32 = 1;
 const STRING: u32 = 2;
 const NUMBER: u32 = 3;
 const DIRECTIVE: u32 = 4;
-/// The columns of rows, one after another.
+/// The columns of rows, in turn.
 const COLUMNS: [u32; 5] = [NUMBER, 5, 6, 7, 8];
 
 pub(super) fn legend() -> SemanticTokensLegend {
@@ -66,7 +66,7 @@ fn tokens(view: View<'_>, shown: Span) -> SemanticTokens {
 
 fn on_keyword_line(entry: &Entry<'_>, found: &mut Vec<(Span, u32)>) {
     let name = entry.keyword.name();
-    // With its asterisk, where that stands right before it.
+    // With its asterisk, if directly before it.
     let start = name.start().saturating_sub(1).max(entry.keyword.span.start());
     found.push((Span::new(name.source(), start, name.end()), KEYWORD));
     for given in entry.keyword.parameters() {
@@ -77,7 +77,7 @@ fn on_keyword_line(entry: &Entry<'_>, found: &mut Vec<(Span, u32)>) {
     }
 }
 
-/// Tokens as the protocol has them: each by what it is after the previous one.
+/// Tokens in the encoding of the protocol, each relative to the previous one.
 fn encoded(view: View<'_>, found: &[(Span, u32)]) -> SemanticTokens {
     let mut data = Vec::with_capacity(found.len());
     let (mut line, mut character) = (0, 0);

@@ -13,20 +13,20 @@ use std::io::{self, BufRead, Read, Write};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-/// The most bytes of a message: more than any editor opens.
+/// The maximum number of bytes of a message: more than any editor opens.
 const LONGEST_MESSAGE: u64 = 4 << 30;
 
 const LONGEST_HEADER_LINE: u64 = 8 << 10;
 
-/// Strings of more bytes are decoded as they come.
+/// Longer strings are decoded incrementally.
 const LONG_STRING: usize = 1 << 20;
 
 #[derive(Debug)]
 pub(super) enum Incoming {
     Message(Message),
-    /// A document that is opened, whose text is long; the notification has an empty one in its place.
+    /// An opened document with a long text, which is empty in the notification.
     Opening(Notification, EditedText),
-    /// No message, or one that cannot be told: the answer to it.
+    /// An invalid message: the response to it.
     Nonsense {
         id: Option<RequestId>,
         code: ErrorCode,
@@ -34,7 +34,7 @@ pub(super) enum Incoming {
     },
 }
 
-/// The requests that the client does not want answered any more.
+/// The cancelled requests.
 #[derive(Debug, Clone)]
 pub(super) struct Cancelled {
     requests: Arc<Mutex<Requests>>,
@@ -45,7 +45,7 @@ pub(super) struct Cancelled {
 #[derive(Debug, Default)]
 struct Requests {
     cancelled: BTreeSet<RequestId>,
-    /// The one that is being answered.
+    /// The current request.
     current: Option<RequestId>,
 }
 
@@ -58,7 +58,7 @@ impl Cancelled {
         self.requests.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The client does not want it; if it is being answered, that work is given up.
+    /// Cancels a request; if it is the current one, its work is stopped.
     pub(super) fn add(&self, id: RequestId) {
         let mut requests = self.requests();
         if requests.current.as_ref() == Some(&id) {
@@ -71,12 +71,12 @@ impl Cancelled {
         self.requests().cancelled.contains(id)
     }
 
-    /// A request is being answered from now on.
+    /// Marks a request as the current one.
     pub(super) fn begin(&self, id: &RequestId) {
         self.requests().current = Some(id.clone());
     }
 
-    /// The request has been answered: it is forgotten, and the next may begin.
+    /// Marks the current request as answered.
     pub(super) fn end(&self, id: &RequestId) {
         let mut requests = self.requests();
         requests.current = None;
@@ -93,7 +93,7 @@ pub(super) fn listen(cancelled: Cancelled) -> Receiver<Incoming> {
 }
 
 fn read_all(input: &mut impl BufRead, sender: &Sender<Incoming>, cancelled: &Cancelled) {
-    // An input that breaks off ends like one that ends.
+    // A broken input counts as ended.
     while let Ok(Some(body)) = read_body(input) {
         let incoming = match body {
             Body::Whole(message) => decode(message),
@@ -132,7 +132,7 @@ enum Body {
 
 /// Reads up to the end of the next message; `None` at the end of the input.
 ///
-/// A line that is no header is skipped: what follows nonsense may make sense again.
+/// A line that is not a header is skipped, to resynchronise.
 fn read_body(input: &mut impl BufRead) -> io::Result<Option<Body>> {
     let mut length: Option<u64> = None;
     loop {
@@ -147,7 +147,7 @@ fn read_body(input: &mut impl BufRead) -> io::Result<Option<Body>> {
                 io::copy(&mut input.by_ref().take(length), &mut io::sink())?;
                 return Ok(Some(Body::TooLong(length)));
             }
-            // Not as much memory as the header promises, but as much as there is to keep.
+            // Memory is allocated as bytes arrive, not as declared in the header.
             return match long::read(input, length, LONG_STRING) {
                 Ok(message) => Ok(Some(Body::Whole(message))),
                 Err(long::Fault::Text(reason)) => Ok(Some(Body::Faulty(reason))),
@@ -196,7 +196,7 @@ fn decode(LongMessage { json, mut texts }: LongMessage) -> Incoming {
         (Some(Value::String(method)), None) => Incoming::Message(Notification { method, params }.into()),
         (Some(_), id) => nonsense(id, ErrorCode::InvalidRequest, "`method` is no text"),
         (None, Some(id)) if fields.contains_key("result") || fields.contains_key("error") => {
-            // Nothing depends on what the client answers.
+            // Responses of the client are ignored.
             let response_result = Ok(fields.remove("result").unwrap_or_default());
             Incoming::Message(Response { id, response_result }.into())
         }
@@ -228,24 +228,24 @@ impl<W: Write> Client<W> {
         message.into().write(&mut self.output)
     }
 
-    /// Tells the client of something.
+    /// Sends a notification.
     pub(super) fn notify(&mut self, method: &str, params: impl serde::Serialize) -> io::Result<()> {
         self.send(Notification::new(method.to_owned(), params))
     }
 
-    /// Asks the client for something whose answer nobody waits for.
+    /// Sends a request whose response is ignored.
     pub(super) fn request(&mut self, method: &str, params: impl serde::Serialize) -> io::Result<()> {
         let id = RequestId::from(format!("inpact-{}", self.next_id));
         self.next_id += 1;
         self.send(Request::new(id, method.to_owned(), params))
     }
 
-    /// Answers what is no request.
+    /// Responds to an invalid request.
     pub(super) fn refuse(&mut self, id: Option<RequestId>, code: ErrorCode, message: String) -> io::Result<()> {
         match id {
             Some(id) => self
                 .send(Response { id, response_result: Err(ResponseError { code: code as i32, message, data: None }) }),
-            // An answer to nobody in particular has the id null, which the type of answers does not know.
+            // Such a response has the id null, which the response type cannot represent.
             None => {
                 let text = json!({"jsonrpc": "2.0", "id": null, "error": {"code": code as i32, "message": message}});
                 let text = text.to_string();

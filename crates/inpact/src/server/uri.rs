@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// The path that a URI names; a URI of another scheme than `file` gives a path under which no file is found.
+/// The path of a URI; a URI of another scheme than `file` gives a path that does not exist.
 pub(super) fn path_of(uri: &str) -> PathBuf {
     let Some(rest) = uri.strip_prefix("file://") else { return PathBuf::from(uri) };
     // An authority is that of this machine, or of a share on Windows.

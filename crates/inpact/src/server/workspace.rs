@@ -20,19 +20,19 @@ use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
-/// The documents of an editor, and the decks that they are.
+/// The documents of an editor, and their decks.
 #[derive(Debug, Default)]
 pub(super) struct Workspace {
     /// The unit of columns of the editor.
     pub(super) unit: ColumnUnit,
     pub(super) traits: Traits,
-    /// Whether the request that is answered is cancelled.
+    /// Whether the current request is cancelled.
     pub(super) stop: Stop,
-    /// How decks are read, by the settings of the editor.
+    /// The read options, from the settings of the editor.
     options: ReadOptions,
-    /// By their places, in the order in which they were opened.
+    /// By path, in the order in which they were opened.
     documents: IndexMap<PathBuf, Document>,
-    /// Files that decks include and nobody has open.
+    /// Included files that are not open.
     files: BTreeMap<PathBuf, FileOnDisk>,
     analyses: BTreeMap<PathBuf, Analysis>,
     /// The decks that must be read again.
@@ -42,13 +42,13 @@ pub(super) struct Workspace {
 /// Abilities of the editor.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Traits {
-    /// Whether completions may have places to fill in.
+    /// Whether completions may have placeholders.
     pub(super) knows_snippets: bool,
-    /// Whether edits may say for which version of a document they are.
+    /// Whether edits may have document versions.
     pub(super) knows_versions: bool,
-    /// Whether it watches files when it is asked to.
+    /// Whether it can watch files.
     pub(super) watches_files: bool,
-    /// Whether it asks again for lenses, hints and colours when it is told that they have changed.
+    /// Whether it supports refresh of lenses, hints and tokens.
     pub(super) refreshes_lenses: bool,
     pub(super) refreshes_hints: bool,
     pub(super) refreshes_tokens: bool,
@@ -68,12 +68,12 @@ struct FileOnDisk {
     text: EditedText,
 }
 
-/// A document where it stands in a deck.
+/// A document within a deck.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct View<'a> {
     pub(super) workspace: &'a Workspace,
     pub(super) analysis: &'a Analysis,
-    /// Which of the files of the deck it is.
+    /// Its source in the deck.
     pub(super) source: SourceId,
 }
 
@@ -83,7 +83,7 @@ impl Workspace {
         Self { unit, traits, stop, ..Self::default() }
     }
 
-    /// Decks are read in this way from now on.
+    /// Sets the read options of decks.
     pub(super) fn set_options(&mut self, options: ReadOptions) {
         self.options = options;
         self.forget();
@@ -108,7 +108,7 @@ impl Workspace {
         self.forget();
     }
 
-    /// Changes a document; all changes of it or none, should one be a surprise to us.
+    /// Changes a document; all changes or, if one panics, none.
     pub(super) fn change(&mut self, uri: &Uri, version: i32, changes: Vec<TextDocumentContentChangeEvent>) {
         let place = place_of(uri);
         let Some(document) = self.documents.get_mut(&place) else { return };
@@ -130,7 +130,7 @@ impl Workspace {
         self.files_changed(&[place]);
     }
 
-    /// Reads the decks again that these files are part of.
+    /// Marks the decks of these files to be read again.
     fn files_changed(&mut self, places: &[PathBuf]) {
         let is_concerned = |(root, analysis): (&PathBuf, &Analysis)| {
             let is_part = places.iter().any(|place| analysis.places().any(|part| part == place));
@@ -140,16 +140,16 @@ impl Workspace {
         self.stale.extend(places.iter().filter(|place| self.documents.contains_key(*place)).cloned());
     }
 
-    /// Reads the decks again that have changed, and settles which documents are decks.
+    /// Reads changed decks again, and determines which documents are decks.
     ///
-    /// A deck whose reading is given up stays to be read.
+    /// A deck whose reading is cancelled stays marked.
     pub(super) fn refresh(&mut self) {
         if self.stale.is_empty() {
             return;
         }
         self.refresh_files();
         let roots: Vec<PathBuf> = self.documents.keys().cloned().collect();
-        // Those that were decks first: what they include need not be read by itself.
+        // Former decks first: the files they include need not be read separately.
         let (known, new): (Vec<_>, Vec<_>) = roots.into_iter().partition(|root| self.analyses.contains_key(root));
         for root in known.into_iter().chain(new) {
             if !self.stale.contains(&root) {
@@ -165,12 +165,12 @@ impl Workspace {
         let covered: Vec<PathBuf> =
             self.analyses.keys().filter(|root| self.includer_of(root).is_some()).cloned().collect();
         for root in covered {
-            // Two that include one another do not cover each other away.
+            // Of two that include one another one remains a deck.
             if self.includer_of(&root).is_some() {
                 self.analyses.remove(&root);
             }
         }
-        // A document that was included and is no more has become a deck.
+        // A document that is no longer included has become a deck.
         let uncovered = self.documents.keys().filter(|root| !self.analyses.contains_key(*root));
         let uncovered: Vec<PathBuf> = uncovered.filter(|root| self.includer_of(root).is_none()).cloned().collect();
         self.stale.extend(uncovered.iter().cloned());
@@ -193,7 +193,7 @@ impl Workspace {
         others.find(|(_, analysis)| analysis.places().any(|part| part == place)).map(|(root, _)| root.as_path())
     }
 
-    /// How decks are read, with what is open and what is known of files that are not.
+    /// The read options, with open documents and cached files.
     fn options_with_texts(&self) -> ReadOptions {
         let open = self.documents.iter().map(|(place, document)| (place, &document.text));
         let on_disk = self.files.iter().map(|(place, file)| (place, &file.text));
@@ -217,7 +217,7 @@ impl Workspace {
         Analysis::of(analysis.place(SourceId::ROOT), &self.options_with_texts().dialect(dialect))
     }
 
-    /// Forgets the files that are not what they were, and reads the decks again that include them.
+    /// Drops changed files from the cache, and marks the decks that include them.
     fn refresh_files(&mut self) {
         let is_other = |(place, file): &(&PathBuf, &FileOnDisk)| Stamp::of(place) != Some(file.stamp);
         let changed: Vec<PathBuf> = self.files.iter().filter(is_other).map(|(place, _)| place.clone()).collect();
@@ -225,7 +225,7 @@ impl Workspace {
         self.files_changed(&changed);
     }
 
-    /// Keeps the files that a deck includes, so that they are not read at every keystroke.
+    /// Caches the files that a deck includes, so that they are not read at every keystroke.
     fn load_files(&mut self, analysis: &Analysis) {
         for place in analysis.places() {
             if self.documents.contains_key(place) || self.files.contains_key(place) {
@@ -237,7 +237,7 @@ impl Workspace {
         }
     }
 
-    /// The decks, each with what is wrong in it.
+    /// The decks with their findings.
     pub(super) fn analyses(&self) -> impl Iterator<Item = &Analysis> {
         self.analyses.values()
     }
@@ -290,7 +290,7 @@ impl<'a> View<'a> {
         self.workspace.text(self.analysis.place(source))
     }
 
-    /// The byte that a position of the document stands before.
+    /// The byte of a position of the document.
     pub(super) fn offset(&self, position: Position) -> u64 {
         self.text_of(self.source).map_or(0, |text| offset_of(text, position, self.workspace.unit))
     }
@@ -305,7 +305,7 @@ impl<'a> View<'a> {
         Span::new(self.source, offset, offset)
     }
 
-    /// The line of the document that a byte is in.
+    /// The line of a byte of the document.
     pub(super) fn line_at(&self, offset: u64) -> Option<(Span, &'a [u8])> {
         let text = self.text_of(self.source)?;
         let (number, start) = text.line_of(offset);
@@ -313,7 +313,7 @@ impl<'a> View<'a> {
         Some((Span::new(self.source, start, start + line.len() as u64), line))
     }
 
-    /// A span as the editor counts it.
+    /// A span in the units of the editor.
     pub(super) fn range(&self, span: Span) -> Range {
         self.workspace.stop.look();
         let text = self.text_of(span.source());
@@ -326,12 +326,12 @@ impl<'a> View<'a> {
         self.text_of(span.source()).map_or(Cow::Borrowed(&[]), |text| text.bytes(span.start()..span.end()))
     }
 
-    /// The text of a span for a person to read.
+    /// The text of a span for display.
     pub(super) fn shown(&self, span: Span) -> String {
         String::from_utf8_lossy(&self.text(span)).into_owned()
     }
 
-    /// The lines of a span of rows that are no comments, each with its bytes; those that nobody keeps too.
+    /// The lines of a span of rows except comments, each with its bytes, including those not kept.
     pub(super) fn lines(&self, rows: Span) -> Vec<(Span, Vec<u8>)> {
         let bytes = self.text(rows);
         let found = lines(&bytes)
