@@ -11,10 +11,10 @@ use super::usable::Refusal;
 use inpact_evaluation::nodes::{Findings, MALFORMED_CELL, Place};
 use std::collections::{HashMap, HashSet};
 
-/// Beyond this share of its diagonal the sum of a row is not zero.
+/// The fraction of its diagonal above which the sum of a row is not zero.
 const ROW_SUM: f64 = 1e-9;
 
-/// A refusal and its line.
+/// A rejection and its line.
 type Wrong = (usize, Refusal);
 
 /// Reads a Matrix Market file of conductances.
@@ -46,7 +46,7 @@ fn wrong(line: usize, message: impl Into<String>, help: impl Into<String>) -> Wr
     (line, Refusal::new(&MALFORMED_CELL, message.into(), help))
 }
 
-/// The entries beside the diagonal, and by what they are multiplied to be conductances.
+/// The off-diagonal entries, and their factor to conductances.
 struct Entries {
     sign: f64,
     entries: Vec<([u32; 2], f64)>,
@@ -102,7 +102,7 @@ fn read(bytes: &[u8]) -> Result<Entries, Wrong> {
     }
 }
 
-/// The lines that say something, from the size on.
+/// The non-comment lines, from the size on.
 fn lines_of(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = text.lines().zip(1..).skip(1).map(|(line, number)| (number, line.trim()));
     lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('%'))
@@ -156,7 +156,7 @@ fn parse_entry(text: &str, rows: u32) -> Result<([u32; 2], f64), Refusal> {
     Ok((ends, value))
 }
 
-/// Refuses pairs of row and column with two entries, be they in one triangle or in both.
+/// Rejects pairs of row and column with two entries, in one triangle or in both.
 fn check_pairs(text: &str, entries: &[([u32; 2], f64)]) -> Result<(), Wrong> {
     let pair_of = |ends: [u32; 2]| [ends[0].max(ends[1]), ends[0].min(ends[1])];
     let mut pairs: Vec<[u32; 2]> = entries.iter().map(|(ends, _)| pair_of(*ends)).collect();
@@ -185,7 +185,7 @@ fn check_pairs(text: &str, entries: &[([u32; 2], f64)]) -> Result<(), Wrong> {
 
 /// Whether the rows of an assembled matrix add up to zero.
 fn check_sums(text: &str, entries: &[([u32; 2], f64)], diagonal: &[(u32, f64)]) -> Result<(), Wrong> {
-    // The sum of each row, and its part on the diagonal.
+    // The sum of each row, and its diagonal entry.
     let mut rows: HashMap<u32, (f64, f64)> = HashMap::new();
     for &(row, value) in diagonal {
         let (sum, on_diagonal) = rows.entry(row).or_default();

@@ -2,12 +2,12 @@
 
 use inpact_parser::grammar::nearest_names;
 
-/// The names that are near to a written one.
+/// The names similar to a written one.
 pub(super) fn near<'name>(written: &str, names: impl IntoIterator<Item = &'name str>) -> Vec<&'name str> {
     nearest_names(written.as_bytes(), names, 3)
 }
 
-/// The question whether one of the names was meant, where one is near, and what else to do.
+/// The suggestion of similar names, if any, and further help.
 pub(crate) fn meant_or<'name>(written: &str, names: impl IntoIterator<Item = &'name str>, else_do: &str) -> String {
     let near = near(written, names);
     if near.is_empty() {
@@ -25,7 +25,7 @@ pub(super) fn quoted(text: &str) -> impl Iterator<Item = &str> {
     text.split('`').skip(1).step_by(2)
 }
 
-/// Names in backticks, one after the other.
+/// Names in backticks, concatenated.
 pub(super) fn listed(names: &[&str]) -> String {
     names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }

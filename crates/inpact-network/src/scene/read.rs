@@ -23,7 +23,7 @@ use toml::Spanned;
 
 /// The tables of a scene file.
 pub trait SceneFiles {
-    /// The name of a file in findings; as the scene has it unless that means nothing to whoever reads them.
+    /// The name of a file in findings; by default as in the scene.
     fn name(&self, name: &str) -> String {
         name.to_owned()
     }
@@ -56,7 +56,7 @@ pub fn read_as_far_as_it_goes(text: &str, name: &str, files: &mut dyn SceneFiles
     }
     match table.map(|table| SceneFile::deserialize(toml::de::Deserializer::from(table))) {
         Some(Ok(file)) => reader.take(file, files),
-        // A text with the shape of a scene can be read.
+        // A text with the shape of a scene is readable.
         Some(Err(error)) => {
             let at = error.span().map_or(0, |span| span.start);
             reader.report(&MALFORMED_SCENE, at, error.message(), "");
@@ -69,10 +69,10 @@ pub fn read_as_far_as_it_goes(text: &str, name: &str, files: &mut dyn SceneFiles
     (scene, all)
 }
 
-/// The most comparisons of unknown names with known ones, so that a table of a million of them takes no longer than a right one.
+/// The maximum number of comparisons of unknown names with known ones, so that a table of a million unknown names takes no longer than a correct one.
 const MOST_COMPARISONS: usize = 1_000_000;
 
-/// A scene in the making.
+/// A scene under construction.
 pub(super) struct Reader<'a> {
     text: &'a str,
     /// The starts of lines.
@@ -81,10 +81,10 @@ pub(super) struct Reader<'a> {
     numbers: HashMap<String, u32>,
     /// The scene file and the tables of nodes, by their names.
     sources: Vec<String>,
-    /// The source that defines each node, and its line; empty for nodes that only a link names.
+    /// The source that defines each node, and its line; empty for nodes named only by a link.
     origins: Vec<(usize, u64)>,
     is_steady: bool,
-    /// A node or a file was refused that may define more, so that unknown names may be there.
+    /// A node or a file was rejected that may define further names, so unknown names may be defined there.
     lacks_nodes: bool,
     /// The number of comparisons left, to suggest names.
     comparisons: usize,
@@ -116,7 +116,7 @@ impl<'a> Reader<'a> {
         self.line_starts.partition_point(|&start| start <= byte.min(self.text.len())) as u64
     }
 
-    /// The place of what begins at a byte: a key, a number, a text.
+    /// The place of a token that begins at a byte: a key, a number, a text.
     fn place(&self, byte: usize) -> Place {
         let line = self.line(byte);
         let start = self.line_starts[usize::try_from(line).unwrap_or(1) - 1];
@@ -141,7 +141,7 @@ impl<'a> Reader<'a> {
         self.line(spanned.span().start)
     }
 
-    /// Reports a finding about what begins at a byte.
+    /// Reports a finding about the token that begins at a byte.
     fn report(&mut self, rule: &Rule, at: usize, message: impl Into<String>, help: &str) {
         let place = self.place(at);
         self.findings.report(rule, place, message, help);
@@ -158,7 +158,7 @@ impl<'a> Reader<'a> {
         self.findings.report(rule, place, message, help);
     }
 
-    /// A number as it is written.
+    /// A number as written.
     fn written(&self, number: &Number) -> &'a str {
         self.text.get(number.span()).unwrap_or_default()
     }
@@ -198,10 +198,10 @@ impl<'a> Reader<'a> {
         for entry in file.node_files {
             self.take_node_file(&entry.into_inner().file, files, &mut scene);
         }
-        // If the scene names nodes, another name in a table of links is a slip; rows of a matrix have no names but their numbers.
+        // If the scene defines nodes, another name in a table of links is a mistake; rows of a matrix have only numbers.
         let links_define_nodes = scene.nodes.is_empty() && !self.lacks_nodes;
         let link_files: Vec<LinkFileEntry> = file.link_files.into_iter().map(Spanned::into_inner).collect();
-        // First, so that all links and interfaces can name their nodes.
+        // First, so that all links and interfaces can refer to nodes.
         let mut matrices: Vec<Option<Vec<SceneLink>>> =
             link_files.iter().map(|entry| self.take_matrix(entry, fraction, files, &mut scene)).collect();
         for link in file.links {
@@ -222,7 +222,7 @@ impl<'a> Reader<'a> {
             self.take_interface_file(&entry.into_inner().file, files, &mut scene);
         }
         self.check_parts(&scene);
-        // Whatever else is wrong comes first.
+        // All other faults come first.
         if scene.nodes.is_empty() && !self.lacks_nodes && !self.findings.has_errors() && self.found.is_empty() {
             let help = "add a [[node]] for each point whose potential, temperature or pore pressure is sought or held, or a [[node_file]]";
             self.report(&MALFORMED_SCENE, 0, "the scene has no nodes, so that there is nothing to solve", help);
@@ -231,7 +231,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// The byte where something begins.
+/// The start of a token.
 pub(super) fn start<T>(spanned: &Spanned<T>) -> usize {
     spanned.span().start
 }

@@ -13,26 +13,26 @@ use std::ops::Range;
 use toml::Spanned;
 use toml::de::{DeArray, DeString, DeTable, DeValue};
 
-/// The longest text that is quoted, in characters.
+/// The maximum length of a quoted text, in characters.
 const LONGEST_QUOTE: usize = 60;
 
-/// Something that is not as a scene is.
+/// A deviation from the shape of a scene.
 pub(super) struct Problem {
-    /// The byte it begins at.
+    /// Its first byte.
     pub(super) at: usize,
     pub(super) rule: &'static Rule,
     pub(super) message: String,
     pub(super) help: String,
 }
 
-/// A scene file whose every key is known and has a value of its kind.
+/// A scene file with only known keys and values of the right type.
 #[derive(Default)]
 pub(super) struct Shaped<'t> {
-    /// The sound part of it; `None` where its head is wrong.
+    /// The valid part of it; `None` where its head is faulty.
     pub(super) table: Option<Spanned<DeTable<'t>>>,
     /// The problems, in the order of the text.
     pub(super) problems: Vec<Problem>,
-    /// Whether an entry was taken out that may define nodes.
+    /// Whether an entry was removed that may define nodes.
     pub(super) lacks_nodes: bool,
 }
 
@@ -81,7 +81,7 @@ const fn needed(name: &'static str, kind: Kind) -> Key {
     Key { name, other: None, kind, need: Need::Needed }
 }
 
-/// A table of these keys; one of them, and many, for a message.
+/// A table of these keys, with its singular and plural for messages.
 const fn shape([one, many]: [&'static str; 2], keys: &'static [Key]) -> Shape {
     Shape { keys, one, many, defines_nodes: false }
 }
@@ -202,12 +202,12 @@ const INTERFACE_FILE: Shape = shape(
     &[needed("file", Kind::Text)],
 );
 
-/// Holds a text against the shape of a scene.
+/// Checks a text against the shape of a scene.
 ///
-/// `without` tells where lines were taken out: what these entries lack is not missing.
+/// `without` gives the removed lines: keys missing in their entries are not reported.
 pub(super) fn shaped<'t>(text: &'t str, without: &[usize]) -> Shaped<'t> {
     let mut walk = Walk { text, without, problems: Vec::new(), lacks_nodes: false };
-    // Lines that are no TOML were taken out before.
+    // Lines that are not TOML were removed before.
     let table = DeTable::parse(text).ok().and_then(|parsed| {
         let span = parsed.span();
         walk.table(parsed.into_inner(), &span, &SCENE).map(|table| Spanned::new(span, table))
@@ -221,7 +221,7 @@ pub(super) fn shaped<'t>(text: &'t str, without: &[usize]) -> Shaped<'t> {
 pub(super) enum Part {
     /// All of it.
     Whole,
-    /// Something in its brackets.
+    /// An element in its brackets.
     Inside,
 }
 
@@ -237,7 +237,7 @@ pub(super) fn expected_of(heading: Option<&str>, name: &str, part: Part) -> Opti
         Some(heading) => below(heading)?,
         None => &SCENE,
     };
-    // Conditions are tables in a line.
+    // Conditions are inline tables.
     let mut keys = here.keys.iter().chain(CONDITION.keys);
     let kind = &keys.find(|key| key.is_called(name))?.kind;
     match (part, kind) {
@@ -260,7 +260,7 @@ impl<'t> Walk<'_, 't> {
         self.problems.push(Problem { at, rule: &MALFORMED_SCENE, message, help: help.into() });
     }
 
-    /// Whether a line was taken out of a table that begins at a place.
+    /// Whether a line was removed from a table that begins at a place.
     fn is_cut(&self, span: &Range<usize>) -> bool {
         if self.without.is_empty() {
             return false;
@@ -283,7 +283,7 @@ impl<'t> Walk<'_, 't> {
         (!written.is_empty() && !written.contains('\n') && written.len() <= LONGEST_QUOTE).then_some(written)
     }
 
-    /// A table of which every key is known and right; `None` where one that is needed is not, or its head is wrong.
+    /// A table with only known and valid keys; `None` where a required one is not, or its head is faulty.
     fn table(&mut self, table: DeTable<'t>, span: &Range<usize>, shape: &'static Shape) -> Option<DeTable<'t>> {
         let mut kept = DeTable::new();
         let (mut is_whole, mut seen, mut meant) = (true, Vec::new(), Vec::new());
@@ -303,12 +303,12 @@ impl<'t> Walk<'_, 't> {
                 Some(value) => {
                     kept.insert(name, value);
                 }
-                // An empty list has no entries, whatever was wrong with those that there were.
+                // An empty list has no entries, whatever the faults of those removed.
                 None => is_whole &= matches!(key.kind, Kind::Entries(_)),
             }
         }
         let is_cut = self.is_cut(span);
-        // The rest of a scene can be read, the rest of an entry has another meaning.
+        // The rest of a scene is usable, while the rest of an entry would have another meaning.
         is_whole &= !is_cut || std::ptr::eq(shape, &raw const SCENE);
         let missing = shape.keys.iter().filter(|key| key.need == Need::Needed && !seen.contains(&key.name));
         for key in missing {
@@ -325,7 +325,7 @@ impl<'t> Walk<'_, 't> {
         is_whole.then_some(kept)
     }
 
-    /// Reports a key that a table has not; gives those that may be meant.
+    /// Reports an unknown key of a table; returns suggestions.
     fn unknown_key(&mut self, name: &Spanned<DeString<'t>>, shape: &'static Shape) -> Vec<&'static str> {
         let names = || shape.keys.iter().flat_map(|key| std::iter::once(key.name).chain(key.other));
         let all: Vec<&str> = names().collect();
@@ -338,7 +338,7 @@ impl<'t> Walk<'_, 't> {
         near(written, names())
     }
 
-    /// A value of a kind; `None` where it is of another.
+    /// A value of a type; `None` where it has another.
     fn value(&mut self, value: Spanned<DeValue<'t>>, kind: &Kind) -> Option<Spanned<DeValue<'t>>> {
         let span = value.span();
         match (kind, value.get_ref()) {
@@ -398,7 +398,7 @@ impl<'t> Walk<'_, 't> {
         }
     }
 
-    /// An entry that is right in all of its keys.
+    /// An entry without faults.
     fn entry(&mut self, entry: Spanned<DeValue<'t>>, shape: &'static Shape) -> Option<Spanned<DeValue<'t>>> {
         let before = self.problems.len();
         let entry = self.value(entry, &Kind::Table(shape)).filter(|_| self.problems.len() == before);
@@ -406,7 +406,7 @@ impl<'t> Walk<'_, 't> {
         entry
     }
 
-    /// Checks that a value is a number that f64 can hold; reports one that is not.
+    /// Checks that a value is a number in the range of f64; reports one that is not.
     fn number(&mut self, value: &Spanned<DeValue<'t>>) -> bool {
         let written = match value.get_ref() {
             DeValue::Float(float) => float.as_str(),
@@ -427,7 +427,7 @@ impl<'t> Walk<'_, 't> {
         false
     }
 
-    /// Reports a value of another kind.
+    /// Reports a value of another type.
     fn other_kind(&mut self, value: &Spanned<DeValue<'t>>, expected: &str) -> Option<Spanned<DeValue<'t>>> {
         let found = match (self.quoted(&value.span()), value.get_ref()) {
             (Some(written), _) => format!("`{written}`"),
@@ -473,7 +473,7 @@ mod tests {
     use serde_json::Value;
     use std::collections::BTreeSet;
 
-    /// The keys of a shape and of all below it, with the names of each.
+    /// The keys of a shape and of all nested ones, with the names of each.
     fn keys_of(shape: &'static Shape, keys: &mut BTreeSet<String>) {
         for key in shape.keys {
             keys.insert(key.name.to_owned());
@@ -499,7 +499,7 @@ mod tests {
         }
     }
 
-    /// One that is added to `file.rs` and not here would be refused, one that is here and not there lost.
+    /// A key only in `file.rs` would be rejected, one only here would be lost.
     #[test]
     fn the_shape_has_the_keys_of_the_schema() {
         let schema = schemars::generate::SchemaSettings::draft2020_12()

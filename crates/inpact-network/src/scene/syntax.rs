@@ -10,29 +10,29 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 use toml::de::DeTable;
 
-/// Of what is longer only the beginning is quoted.
+/// The maximum length of a quotation.
 const LONGEST_QUOTE: usize = 40;
 
-/// The text of a scene file with what is wrong in it taken out.
+/// The text of a scene file with faulty lines removed.
 pub(super) struct Sound<'t> {
-    /// The text; the lines that are wrong hold blanks, so that every byte is where it was. `None` where too much is wrong.
+    /// The text; faulty lines are blanked, so that offsets are unchanged. `None` where there are too many faults.
     pub(super) text: Option<Cow<'t, str>>,
-    /// The lines taken out, in ascending order.
+    /// The removed lines, in ascending order.
     pub(super) without: Vec<usize>,
     /// The problems, in the order of the text.
     pub(super) problems: Vec<Problem>,
 }
 
-/// The most readings of the text: after a key without a value its parser sees keys and values only once that is taken out.
+/// The maximum number of parses of the text: after a key without a value the parser sees further keys and values only once it is removed.
 const MOST_PASSES: usize = 4;
 
-/// Of so many places is said what is wrong there; more of a kind are counted.
+/// The maximum number of places reported; more of a kind are counted.
 const MOST_SAID: usize = 100;
 
-/// So deep may lists and tables lie in one another; the parser of TOML goes no deeper.
+/// The maximum nesting of lists and tables, which is that of the TOML parser.
 const DEEPEST: usize = 80;
 
-/// Finds what is not TOML.
+/// Finds syntax errors of TOML.
 pub(super) fn sound(text: &str) -> Sound<'_> {
     let mut sound = Sound { text: None, without: Vec::new(), problems: Vec::new() };
     let mut rest = Cow::Borrowed(text);
@@ -49,7 +49,7 @@ pub(super) fn sound(text: &str) -> Sound<'_> {
     sound
 }
 
-/// Says what is wrong at some places, and puts blanks where their lines are; `None` where there is nothing left to take out.
+/// Reports the faults at some places, and blanks their lines; `None` where there is nothing left to remove.
 fn take_out(text: &str, rest: String, places: Vec<Range<usize>>, sound: &mut Sound<'_>) -> Option<String> {
     let mut rest = rest.into_bytes();
     let before = sound.without.len();
@@ -60,7 +60,7 @@ fn take_out(text: &str, rest: String, places: Vec<Range<usize>>, sound: &mut Sou
         if !without.insert(line.start) {
             continue;
         }
-        // Nobody sees more: they are counted.
+        // More are only counted.
         let is_seen = sound.problems.len() < MOST_SAID;
         let (message, help) = if is_seen { said(text, &line, &place) } else { ("no TOML".to_owned(), String::new()) };
         sound.problems.push(Problem { at: place.start, rule: &MALFORMED_SCENE, message, help });
@@ -71,7 +71,7 @@ fn take_out(text: &str, rest: String, places: Vec<Range<usize>>, sound: &mut Sou
     String::from_utf8(rest).ok().filter(|_| before < sound.without.len())
 }
 
-/// The places that the parser cannot read, in ascending order.
+/// The places of parse errors, in ascending order.
 fn places(text: &str) -> Vec<Range<usize>> {
     let (_, errors) = DeTable::parse_recoverable(text);
     let mut places: Vec<_> = errors.iter().map(|error| error.span().unwrap_or(text.len()..text.len())).collect();
@@ -79,7 +79,7 @@ fn places(text: &str) -> Vec<Range<usize>> {
     places
 }
 
-/// The line that a byte is in, without its end; the last one that is not empty where the text has ended.
+/// The line of a byte, without its end; the last non-empty one at the end of the text.
 fn line_at(text: &str, at: usize) -> Range<usize> {
     let end = if at < text.len() { at } else { text.trim_end().len() };
     let start = text[..floor(text, end)].rfind('\n').map_or(0, |before| before + 1);
@@ -87,12 +87,12 @@ fn line_at(text: &str, at: usize) -> Range<usize> {
     start..end
 }
 
-/// The last place where a character begins, at or before a byte.
+/// The last character boundary at or before a byte.
 fn floor(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|at| text.is_char_boundary(*at)).unwrap_or(0)
 }
 
-/// The problem at a place of a line, and its remedy.
+/// The problem at a place of a line, and its help.
 fn said(text: &str, line: &Range<usize>, place: &Range<usize>) -> (String, String) {
     let written = &text[line.clone()];
     let at = floor(written, place.start.clamp(line.start, line.end) - line.start);
@@ -200,7 +200,7 @@ fn equals_before(written: &str, at: usize) -> Option<usize> {
     found
 }
 
-/// The brackets of a part of a line that are open, the last one last.
+/// The open brackets of a part of a line, innermost last.
 fn open_brackets(before: &str) -> Vec<char> {
     let mut open = Vec::new();
     let mut quote = None;
@@ -216,7 +216,7 @@ fn open_brackets(before: &str) -> Vec<char> {
     open
 }
 
-/// The quote that is opened and not closed.
+/// The unclosed quote.
 fn open_quote(text: &str) -> Option<char> {
     let mut open = None;
     let mut is_escaped = false;
@@ -236,7 +236,7 @@ fn open_quote(text: &str) -> Option<char> {
     open
 }
 
-/// The value that a place lies in, up to what separates it.
+/// The value at a place, up to its separator.
 fn whole_word(written: &str, from: usize, at: usize) -> Option<String> {
     let start = written[from..at].rfind([' ', '\t', ',', '[', '{', '=']).map_or(from, |before| from + before + 1);
     let found = word(&written[start..]);
@@ -335,7 +335,7 @@ mod tests {
         }
     }
 
-    /// Every place in one pass, and the rest is still there.
+    /// All places in one pass, and the rest is kept.
     #[test]
     fn all_of_them() {
         let text = "deck = joint.inp\n[[node]]\nname = \"a\"\narea\n[[node]]\nname = \"b\"\narea = ü\n";

@@ -132,7 +132,7 @@ pub(super) fn nodes(bytes: &[u8], findings: &mut Findings, take: &mut dyn FnMut(
     });
 }
 
-/// Reads a table of links; `take` says which end of a row it refuses.
+/// Reads a table of links; `take` returns the end of a row that it rejects.
 pub(super) fn links(
     bytes: &[u8],
     findings: &mut Findings,
@@ -175,7 +175,7 @@ pub(super) fn links(
     });
 }
 
-/// Reads a table of interfaces; `take` says which side of a row it refuses.
+/// Reads a table of interfaces; `take` returns the side of a row that it rejects.
 pub(super) fn interfaces(
     bytes: &[u8],
     findings: &mut Findings,
@@ -186,9 +186,9 @@ pub(super) fn interfaces(
         "master" | "main" => Some(InterfaceColumn::Master),
         "interaction" => Some(InterfaceColumn::Interaction),
         _ => {
-            // As the scene file calls it.
+            // The name in the scene file.
             let column = Column::named(if header == "temperature" { "temp" } else { header })?;
-            // More fields than a deck can have would be room for nothing in every row.
+            // More fields than a deck can have would only waste memory in every row.
             let is_known = |number: u32| usize::try_from(number).is_ok_and(|number| number <= MOST_FIELD_VARIABLES);
             let is_of_interface = matches!(
                 column,
@@ -276,7 +276,7 @@ fn key_of(column: Column) -> &'static str {
     }
 }
 
-/// A row of a table whose columns mean `C`.
+/// A row of a table with columns `C`.
 struct Row<'a, C> {
     record: &'a StringRecord,
     columns: &'a [(usize, C)],
@@ -287,7 +287,7 @@ struct Row<'a, C> {
 }
 
 impl<C: Copy + PartialEq> Row<'_, C> {
-    /// What a record has in a column; empty where there is none.
+    /// The cell of a record in a column; empty where there is none.
     fn cell<'r>(&self, record: &'r StringRecord, column: C) -> &'r str {
         let place = self.columns.iter().find(|(_, of)| *of == column).map(|(place, _)| *place);
         place.and_then(|place| record.get(place)).unwrap_or_default()
@@ -309,12 +309,12 @@ impl<C: Copy + PartialEq> Row<'_, C> {
         self.cell(self.headers, column)
     }
 
-    /// A refusal that is about the cell of a column.
+    /// A rejection of the cell of a column.
     fn about(&self, column: C, refusal: Refusal) -> Refusal {
         refusal.at(self.header(column))
     }
 
-    /// The number in a cell, which is what the scene file gives by a key; `None` where it is empty.
+    /// The number in a cell, corresponding to a key of the scene file; `None` where it is empty.
     fn number(&self, place: usize, key: &str) -> Result<Option<f64>, Refusal> {
         let text = self.record.get(place).unwrap_or_default();
         if text.is_empty() {
@@ -332,7 +332,7 @@ impl<C: Copy + PartialEq> Row<'_, C> {
     }
 }
 
-/// Reads a table row by row, whose columns are named and listed for a person; reports what is wrong with it, and the rows that `take` refuses.
+/// Reads a table row by row, with names of its columns for messages; reports its faults, and the rows that `take` rejects.
 fn each_row<C: Copy + PartialEq>(
     bytes: &[u8],
     findings: &mut Findings,
@@ -390,7 +390,7 @@ fn separator(bytes: &[u8], is_known: impl Fn(&str) -> bool) -> u8 {
         let headers = line.split(|byte| *byte == separator).filter_map(|cell| std::str::from_utf8(cell).ok());
         headers.filter(|header| is_known(&header.trim().trim_matches('"').to_ascii_lowercase())).count()
     };
-    // Of several that are as good the first.
+    // The first of equal ones.
     [b',', b';', b'\t'].into_iter().rev().max_by_key(|separator| known(*separator)).unwrap_or(b',')
 }
 

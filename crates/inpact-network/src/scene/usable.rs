@@ -4,7 +4,7 @@ use super::Field;
 use super::rules::{MALFORMED_SCENE, UNUSABLE_NUMBER};
 use inpact_diagnostics::Rule;
 
-/// A refusal: the rule, the message and the help.
+/// A rejection: the rule, the message and the help.
 pub(super) struct Refusal {
     pub(super) rule: &'static Rule,
     /// The header of the column, where it is about one cell of a table.
@@ -60,7 +60,7 @@ impl Must {
         }
     }
 
-    /// The help of a refusal.
+    /// The help of a rejection.
     fn help(self) -> &'static str {
         match self {
             Self::BeFinite => "give a finite number",
@@ -85,7 +85,7 @@ pub(super) fn number(key: &str, value: f64, written: &str, what: impl FnOnce() -
     Err(Refusal::new(&UNUSABLE_NUMBER, format!("{} is {written}", what()), must.help()))
 }
 
-/// The information lost from text to f64: digits that make a number infinite do not mean infinity, and those that make it zero do not mean zero.
+/// Overflow or underflow from text to f64: such digits mean neither infinity nor zero.
 pub(super) fn lost(value: f64, written: &str) -> Option<&'static str> {
     let mantissa = written.split(['e', 'E']).next().unwrap_or_default();
     let has_digit = mantissa.bytes().any(|byte| matches!(byte, b'1'..=b'9'));
@@ -97,7 +97,7 @@ pub(super) fn lost(value: f64, written: &str) -> Option<&'static str> {
     }
 }
 
-/// Whether a node can have such a name.
+/// Whether a name is valid for a node.
 pub(super) fn node_name(name: &str, what: impl FnOnce() -> String) -> Result<(), Refusal> {
     if name.is_empty() {
         return Err(Refusal::new(&MALFORMED_SCENE, format!("{} is empty", what()), "give the name of a node"));

@@ -42,7 +42,7 @@ impl Reader<'_> {
         at: usize,
         node: &str,
     ) -> Option<CheckedCondition> {
-        // A named field is carried, even without a condition.
+        // A field that is mentioned is carried, even without a condition.
         let is_named_only = condition == Condition::default();
         let Condition { fixed, source, capacity, initial } = condition;
         let given = Given {
@@ -64,7 +64,7 @@ impl Reader<'_> {
         Some(CheckedCondition { fixed, source, capacity, initial })
     }
 
-    /// The course that a key of something gives; reports one that cannot be used.
+    /// The time course of a key; reports an unusable one.
     pub(super) fn course(&mut self, key: &str, course: Option<Spanned<file::Course>>, label: &str) -> Option<Course> {
         let course = course?;
         let span = course.span();
@@ -112,7 +112,7 @@ impl Reader<'_> {
         let (at_nodes, written) = (start(&entry.nodes), self.text.get(entry.nodes.span()).unwrap_or_default());
         let names = entry.nodes.into_inner();
         let numbers = [0, 1].map(|end| {
-            // A name with an escape is not found as it is, and then the list is meant.
+            // A name with an escape is not found verbatim; then the place is that of the list.
             let place = ['"', '\''].iter().find_map(|quote| written.find(&format!("{quote}{}{quote}", names[end])));
             self.number(&names[end], at_nodes + place.unwrap_or(0), "a name in `nodes`", scene)
         });

@@ -93,7 +93,7 @@ impl Reader<'_> {
         });
     }
 
-    /// Reads a table beside the scene file; whether nothing is wrong with it.
+    /// Reads a table of the scene; whether it has no faults.
     pub(super) fn take_file(
         &mut self,
         name: &Spanned<String>,
@@ -105,7 +105,7 @@ impl Reader<'_> {
         take(self, &bytes, &mut findings);
         let is_whole = !findings.has_errors();
         let mut found = findings.into_list();
-        // Bytes in memory can be read; a matrix has no cells under headers.
+        // Bytes in memory are readable; a matrix has no cells under headers.
         if !is_matrix(name.as_ref()) {
             let _ = locate(&*bytes, &mut found);
         }

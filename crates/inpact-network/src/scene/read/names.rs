@@ -8,7 +8,7 @@ use crate::scene::rules::{DUPLICATE_NODE, UNKNOWN_NODE};
 use crate::scene::usable::{self, Refusal};
 
 impl Reader<'_> {
-    /// The number of a new node; that of the old one where the name is taken.
+    /// The number of a new node, or of the existing one with that name.
     pub(super) fn define(&mut self, name: &str, scene: &mut Scene) -> Result<u32, u32> {
         if let Some(&number) = self.numbers.get(name) {
             return Err(number);
@@ -25,7 +25,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The number of a new node that a source defines in a line.
+    /// The number of a new node defined by a source in a line.
     pub(super) fn define_at(
         &mut self,
         name: &str,
@@ -53,7 +53,7 @@ impl Reader<'_> {
         })
     }
 
-    /// The number of a node; `None` where a file may define it that was refused.
+    /// The number of a node; `None` where a rejected file may define it.
     pub(super) fn known(&mut self, name: &str, scene: &Scene) -> Result<Option<u32>, Refusal> {
         let number = self.numbers.get(name).copied();
         if number.is_some() || self.lacks_nodes {

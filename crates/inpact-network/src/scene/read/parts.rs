@@ -7,11 +7,11 @@ use crate::scene::{ConditionsOfDeck, NodePart, PartKind, Scene};
 use inpact_parser::model::Name;
 use toml::Spanned;
 
-/// The most steps that a deck can be thought to have.
+/// The maximum plausible number of steps of a deck.
 const MOST_STEPS: f64 = 1e6;
 
 impl Reader<'_> {
-    /// The conditions that are taken from the deck.
+    /// The conditions taken from the deck.
     pub(super) fn deck_conditions(&mut self, entry: Option<&Spanned<ConditionsEntry>>) -> Option<ConditionsOfDeck> {
         let entry = entry?;
         let line = self.line_of(entry);
@@ -32,7 +32,7 @@ impl Reader<'_> {
         Some(ConditionsOfDeck { step, line })
     }
 
-    /// The part of the deck that a node stands for.
+    /// The part of the deck that a node represents.
     pub(super) fn take_part(
         &mut self,
         set: Option<Spanned<String>>,
@@ -53,7 +53,7 @@ impl Reader<'_> {
         scene.parts.insert(node, NodePart { kind, name: Name::new(name.as_ref()), line });
     }
 
-    /// Reports parts from which nothing is taken, and conditions that nothing takes.
+    /// Reports parts without conditions, and conditions without a node.
     pub(super) fn check_parts(&mut self, scene: &Scene) {
         match (&scene.deck_conditions, scene.parts.values().next()) {
             (None, Some(part)) if !self.findings.has_errors() => {

@@ -7,10 +7,10 @@ use crate::scene::values::Number;
 use crate::scene::{Procedure, Steps, TimeSpan};
 use inpact_evaluation::law::ClosingHeat;
 
-/// Below this share of the range of values, the local error of an increment is lost in rounding.
+/// The fraction of the range of values below which the local error of an increment is lost in rounding.
 const LEAST_TOLERANCE: f64 = 1e-12;
 
-/// More increments than that are a slip of units and not a wish: their states alone would fill a disk.
+/// More increments are probably an error of units: their states alone would fill a disk.
 const MOST_INCREMENTS: f64 = 1e7;
 
 impl Reader<'_> {
@@ -39,7 +39,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The time of a transient; or the number that is wrong, what is wrong, and what to do.
+    /// The time of a transient; or the invalid number, its fault, and the help.
     pub(super) fn time_span<'n>(
         &self,
         entry: &'n TimeEntry,
