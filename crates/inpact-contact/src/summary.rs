@@ -25,7 +25,7 @@ pub(crate) enum Origin<'a> {
 pub enum AreaSource {
     /// The faces of the slave, shared among their nodes.
     Faces(Shares),
-    /// A surface of nodes: so many of them have an area of *SURFACE, the others this one, from the first row of the interaction.
+    /// A surface of nodes: this many of them have an area from *SURFACE, the others this one, from the first row of the interaction.
     Nodes {
         /// The number with an own area.
         given: usize,

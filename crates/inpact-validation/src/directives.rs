@@ -17,7 +17,7 @@ pub(crate) struct Ignore {
 /// A code of an ignore comment.
 #[derive(Debug)]
 pub(crate) struct IgnoredCode {
-    /// The code as it is written.
+    /// The code as written.
     pub(crate) code: String,
     /// Its place.
     pub(crate) span: Span,

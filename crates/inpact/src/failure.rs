@@ -82,7 +82,7 @@ pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
         Ok(Outcome::HasErrors) => ExitCode::from(1),
-        // Whoever reads our output has seen enough.
+        // The reader of the output has closed the pipe.
         Err(failure) if failure.is_closed_pipe() => ExitCode::SUCCESS,
         Err(Failure::AlreadySaid) => ExitCode::from(2),
         Err(failure) => {
@@ -96,9 +96,9 @@ pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
 pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
     let plain = error.render().to_string();
     match visible(&plain) {
-        // Nobody sees a failure of this.
+        // A failure of this cannot be shown.
         Cow::Borrowed(_) => drop(error.print()),
-        // Typed text, or the name of a file, may have characters that must not reach a terminal.
+        // Arguments and file names may contain characters that must not reach a terminal.
         Cow::Owned(shown) => say(shown.trim_end()),
     }
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))

@@ -78,7 +78,7 @@ pub(crate) fn diagnostics(diagnostics: &[Diagnostic], sources: Sources<'_>, form
         diagnostics.iter().map(|found| write(found, sources)).collect()
     };
     match format {
-        // It escapes what it is given: its colours are escape sequences too.
+        // It escapes its input itself: its colours are escape sequences too.
         Format::Full => diagnostics.iter().map(|found| full::write(found, sources, style)).collect(),
         Format::Sarif => visible_json(&sarif::results(diagnostics, sources)).into_owned(),
         Format::Json => visible_json(&lines(json::write)).into_owned(),

@@ -333,7 +333,7 @@ fn repository_of(deck: &Path) -> PathBuf {
 fn read(path: &Path) -> Result<File, Failure> {
     let text = files::read_text(path)?;
     let wrong = |message: &str| Failure::Usage(format!("`{}`: {message}", path.display()));
-    // A configuration comes with the deck: where it is a link, the lines of what it leads to are nobody's business.
+    // A configuration comes with the deck: where it is a link, the lines of its target are not quoted.
     let is_link = path.is_symlink();
     let shown = |error: &toml::de::Error| if is_link { error.message().to_owned() } else { error.to_string() };
     let file: File = toml::from_str(&text).map_err(|error| wrong(shown(&error).trim_end()))?;

@@ -25,7 +25,7 @@ pub(crate) fn with_threads<T: Send>(threads: usize, work: impl FnOnce() -> T + S
     }
 }
 
-/// The number of threads for work that is worth so many at most: what the machine has, or what `RAYON_NUM_THREADS` says, as rayon takes it.
+/// The number of threads for work, with a maximum: all cores, or `RAYON_NUM_THREADS`, as in rayon.
 pub(crate) fn threads_for(most: usize) -> usize {
     // To find out what the machine has takes longer than little work.
     if most <= 1 {

@@ -27,9 +27,9 @@ pub enum Refusal {
     OneAxis,
     /// A grid with no cells along an axis, or for another number of axes.
     Cells,
-    /// A grid of so many nodes would not stay in cache.
+    /// A grid with this number of nodes would not fit into the cache.
     TooManyNodes(usize),
-    /// The refinement of table and grid has so many vertices that its error is not computed.
+    /// The refinement of table and grid has too many vertices for its error to be computed.
     TooManyVertices(usize),
     /// The error bound, here as a part of the largest value or pointwise, is above the tolerance.
     Bound {

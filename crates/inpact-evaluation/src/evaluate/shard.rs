@@ -14,7 +14,7 @@ use crate::rows::{Part, Row, Tally};
 pub(super) struct Shard {
     nodes: NodeIndex,
     histories: Vec<NodeHistory>,
-    /// The chunk of rows that is gone through, and the slots of its nodes.
+    /// The current chunk of rows, and the slots of its nodes.
     chunk: Chunk,
     slots: Vec<HistorySlot>,
     pub(super) tally: Tally,

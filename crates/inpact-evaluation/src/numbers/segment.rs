@@ -8,7 +8,7 @@
 //!   the result never turns back by more than one ulp, and near an end the correction is too small to leave it.
 //! - [`between`], for values known only at the query, as those of the groups of a nested table are: the same expression in twice the precision, 0.5 ulp.
 //!
-//! A segment on which the short form could fail has no kernel slope and goes through `between`, which for extreme exponents uses [`Scaled`] numbers.
+//! A segment on which the short form could fail has no kernel slope and falls back to `between`, which for extreme exponents uses [`Scaled`] numbers.
 //!
 //! Values of opposite sign: `between` is good to half an ulp of the result plus 2⁻¹⁰² of the larger value, so that relative accuracy is lost only within 2⁻⁵⁰
 //! of the zero crossing; such segments have no kernel slope.

@@ -102,7 +102,7 @@ impl Edges {
             let element = &core.elements[number as usize];
             let ends = form.ends(core, element);
             let (flow, rounding) = if let Some(child) = self.child_of(number, ends) {
-                // Along the forest the jump is kept as it is.
+                // Along the forest the jump is stored directly.
                 let conductance = element.conductance.times_power_of_two(-form.scale(child));
                 let flow = jumps[child as usize] * conductance;
                 (if child == ends[0] { flow } else { -flow }, ROUNDING * flow.to_f64().abs())

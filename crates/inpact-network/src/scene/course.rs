@@ -45,7 +45,7 @@ impl Course {
         }
     }
 
-    /// The values it goes through.
+    /// Its values at its points.
     pub fn values(&self) -> impl Iterator<Item = f64> {
         self.0.iter().map(|point| point[1])
     }

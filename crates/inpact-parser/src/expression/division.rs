@@ -26,9 +26,9 @@ impl Division {
 pub struct IntegerDivision {
     /// Dividend and divisor with the text between them.
     pub span: Span,
-    /// The dividend as it is written.
+    /// The dividend as written.
     pub dividend: Span,
-    /// The divisor as it is written.
+    /// The divisor as written.
     pub divisor: Span,
     /// The quotient before release 2024, rounded down.
     pub floor: Value,

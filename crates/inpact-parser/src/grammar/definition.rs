@@ -224,7 +224,7 @@ impl Definition {
         nearest::nearest(written.as_bytes(), self.parameters.iter().map(|parameter| parameter.name.as_str()), at_most)
     }
 
-    /// The layout of the rows when these parameters are given and so many columns are counted; see [`Data::layout`].
+    /// The layout of the rows with these parameters and this number of counted columns; see [`Data::layout`].
     pub fn layout(&self, given: impl Fn(&str) -> bool, count: usize) -> Option<Layout> {
         self.data.layout(given, count)
     }

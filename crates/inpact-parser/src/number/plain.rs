@@ -67,7 +67,7 @@ fn power(text: &[u8], at: usize) -> Option<(i32, usize)> {
         _ => (1, at),
     };
     let (power, end) = few_digits(text, start, 0);
-    // No exponent of more digits is in reach, and so many cannot overflow.
+    // Exponents with more digits are out of range, and this many cannot overflow.
     let is_short = (1..=4).contains(&(end - start));
     is_short.then_some((sign * i32::try_from(power).ok()?, end))
 }

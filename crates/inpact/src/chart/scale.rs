@@ -170,7 +170,7 @@ fn parsed(digits: i64, exponent: i32) -> f64 {
     format!("{digits}e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
-/// Powers of ten, all or every so many; zero and the negative ones where there are any.
+/// Powers of ten, all or every n-th; zero and the negative ones where there are any.
 #[expect(clippy::cast_possible_truncation, reason = "logarithms of f64 are below 400")]
 fn logarithmic_ticks(least: f64, greatest: f64, signs: Signs, most: usize) -> Vec<f64> {
     let (first, last) = (least.log10().floor() as i32, greatest.log10().ceil() as i32);

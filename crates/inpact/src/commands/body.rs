@@ -106,7 +106,7 @@ fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Fa
     }
     let mut fields = arguments.field.map_or_else(|| body.fields(), <[_]>::to_vec);
     if fields.is_empty() {
-        // Every material says why it conducts no heat either.
+        // The reason for missing heat is reported for every material.
         fields.push(BodyField::Thermal);
     }
     let mut lumped: Vec<Lumped> = Vec::new();

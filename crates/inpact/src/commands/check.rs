@@ -142,7 +142,7 @@ pub(crate) fn run(arguments: &CheckArguments) -> Result<Outcome, Failure> {
         return Err(Failure::Usage(format!("`--fix-also`: there is no rule `{unknown}`")));
     }
     files::refuse_second_stream(&arguments.decks)?;
-    // Not only what is read: `check nothing.inp -o nothing.inp` is a slip as well.
+    // Not only files that are read: `check nothing.inp -o nothing.inp` is a mistake as well.
     files::name_as_inputs(&arguments.decks);
     files::check_targets(&[arguments.output.as_deref()])?;
     if arguments.timings {
@@ -180,7 +180,7 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
         Err(_) => Vec::new(),
     };
     let places: Vec<Vec<PathBuf>> = checked.iter().map(places_of).collect();
-    // What a scene is made from is no part of it that is judged there: its deck is judged whole.
+    // The input files of a scene are not checked as parts of it: its deck is checked as a whole.
     let includes = |result: &Result<Checked<'_>, Failure>| match result {
         Ok(Checked { kind: Kind::Scene, places, .. }) => places.iter().take(1).cloned().collect(),
         result => places_of(result),
@@ -246,7 +246,7 @@ fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failu
         }
     }
     let outcome = match () {
-        // Whoever watches can mend a file that cannot be read.
+        // With `--watch` the user can repair an unreadable file.
         () if unreadable && !arguments.watch => return Err(Failure::AlreadySaid),
         () if total.of(Severity::Error) > 0 && !arguments.exit_zero => Outcome::HasErrors,
         () => Outcome::Clean,
@@ -275,7 +275,7 @@ fn check_deck<'a>(path: &'a Path, arguments: &CheckArguments, progress: &Progres
     let need = selection.map_or(Need::Nothing, |selection| fixing::need_of(&deck, &settings, &selection));
     let (mut text, mut tally) = judge(path, &deck, &settings, arguments)?;
     if deck.deck.lacks_rows() {
-        // Something is to be said of a table of which not all was kept.
+        // There is a finding in a table that was not kept completely.
         drop(deck);
         deck = input::read_located_deck(path, Keep::Interpreted, &settings, None)?;
         (text, tally) = judge(path, &deck, &settings, arguments)?;

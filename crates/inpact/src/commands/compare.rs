@@ -118,7 +118,7 @@ fn evaluated(
 ) -> Result<Vec<Vec<Option<f64>>>, Failure> {
     let Evaluable { settings, model, plan, choices, nodes_name, rows, made, .. } = prepared;
     let Some(made) = made else { return Ok(vec![Vec::new(); outputs.len()]) };
-    // Statuses are no columns of numbers.
+    // Statuses are not columns of numbers.
     let numbers = plan.outputs.iter().filter(|output| output.is_number());
     let places: Vec<Option<usize>> =
         outputs.iter().map(|output| numbers.clone().position(|planned| planned == output)).collect();

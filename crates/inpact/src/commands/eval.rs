@@ -98,7 +98,7 @@ fn evaluate(
     let written = write(&mut rows, evaluation, plan, (&mut output, arguments.output.format()), &mut rows_out);
     *went_out = if output.is_stream() { rows_out } else { 0 };
     let tally = written.map_err(unreadable)?.map_err(|error| match error.kind() {
-        // A value that a column of the format cannot hold is a fault of the data, not of the file that is written.
+        // A value that a column of the format cannot hold is a fault of the data, not of the output file.
         ErrorKind::InvalidData => Failure::Data(format!("`{nodes_name}` cannot be written in this format: {error}")),
         _ => output.failure(error),
     })?;

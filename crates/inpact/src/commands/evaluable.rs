@@ -326,7 +326,7 @@ impl Evaluable {
     pub(crate) fn say(&mut self, findings: Findings, messages: Messages<'_>) -> bool {
         let mut found = findings.into_list();
         if let (Some(table), true) = (&mut self.table, messages.shows_lines()) {
-            // A table that has gone since it was read has no lines to show.
+            // A table deleted since it was read has no lines to show.
             let _ = table.locate(Path::new(&self.nodes_name), &mut found, messages);
         }
         messages.data(found, &self.settings)
@@ -390,7 +390,7 @@ impl NodesInput {
 
     /// Finds the cells that findings name by their lines, and the lines around them where they are shown.
     fn locate(&mut self, path: &Path, found: &mut [Diagnostic], messages: Messages<'_>) -> Result<(), Failure> {
-        // Only a text table has lines, and cells that can be pointed at.
+        // Only a text table has lines, and locations of cells.
         if !found.iter().any(|found| found.primary.extent == Extent::Line) {
             return Ok(());
         }
@@ -409,7 +409,7 @@ impl NodesInput {
             Self::Spooled(spooled) => {
                 let unreadable = |error| Failure::read(path, error);
                 spooled.seek(SeekFrom::Start(0)).map_err(unreadable)?;
-                // Its place is the same for all readers, which is why only one reads at a time.
+                // Its position is shared by all readers, so only one reads at a time.
                 spooled.try_clone().map(Box::new).map_err(unreadable)
             }
         }

@@ -60,7 +60,7 @@ pub(crate) fn with_messages(
     let ended = work(Messages { format, gathered: &gathered });
     let (results, mut run) = gathered.0.into_inner().unwrap_or_else(PoisonError::into_inner);
     let ended = match ended {
-        // The document says it: a line below it would make it none.
+        // It is in the document: a line below it would make that invalid.
         Err(failure) if !failure.is_closed_pipe() => {
             let text = failure.to_string();
             run.failure.get_or_insert(text);
@@ -78,7 +78,7 @@ impl Messages<'static> {
 
     /// Does some work of which nothing is to be heard.
     pub(crate) fn unheard<T>(work: impl FnOnce(Messages<'_>) -> T) -> T {
-        // They are gathered, and nobody says them.
+        // They are collected, and not printed.
         work(Messages { format: Format::Sarif, gathered: &Gathered(Mutex::default()) })
     }
 
@@ -121,7 +121,7 @@ impl Messages<'_> {
     /// Says what is wrong with a deck beside what the check finds, as the configuration has it; true if there are errors.
     pub(crate) fn of_deck(self, found: Vec<Diagnostic>, deck: &Deck, settings: &Settings) -> bool {
         let found = settings.apply(found);
-        // What is of the deck as a whole has no lines to be shown.
+        // A finding about the whole deck has no lines to show.
         for found in &found {
             let is_placed = found.primary.extent != Extent::File;
             self.say(std::slice::from_ref(found), if is_placed { Sources::Deck(deck) } else { Sources::Data });
@@ -147,7 +147,7 @@ impl Messages<'_> {
             Format::Sarif => self.gathered().0.push(text),
             Format::Json => text.lines().for_each(say_json),
             Format::Concise | Format::Github => text.lines().for_each(say),
-            // It has escaped what it was given, and its colours are no text.
+            // It has escaped its input, and its colours are escape sequences.
             Format::Full => say_as_it_is(&text),
         }
     }

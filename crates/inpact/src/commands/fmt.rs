@@ -54,7 +54,7 @@ pub(crate) fn run(arguments: &FormatArguments) -> Result<Outcome, Failure> {
     // Files are formatted even when standard output is closed.
     let mut unwritten = None;
     let decks = decks::find(&arguments.decks, Same::Place, &arguments.reading)?;
-    // Many at a time are read and formatted; they are written one by one, in their order.
+    // They are read and formatted in parallel, and written one by one, in order.
     let formatted = decks.chunks(AT_A_TIME).flat_map(|decks| {
         with_threads(0, || decks.par_iter().map(|deck| (&deck.path, read(&deck.path, arguments))).collect::<Vec<_>>())
     });

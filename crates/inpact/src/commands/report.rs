@@ -78,7 +78,7 @@ pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
         gathered.place(&mut figure, prepared);
     }
     let evaluation = evaluated.as_mut().map(Evaluated::in_words);
-    // What the deck includes is known now.
+    // The included files are known now.
     files::check_targets(&[arguments.output.as_deref()])?;
     let inputs = inputs(arguments, &deck)?;
     let report =
@@ -160,7 +160,7 @@ impl Evaluated {
 fn inputs(arguments: &ReportArguments, deck: &Deck) -> Result<Vec<Input>, Failure> {
     let is_stream = arguments.deck.as_os_str() == files::STANDARD_STREAM;
     let mut inputs = vec![Input::of(&arguments.deck)?];
-    // By the names that the deck has for them: where they are is nobody's business.
+    // By their names in the deck, so that paths are not disclosed.
     let names = deck.syntax().sources().iter().map(inpact_parser::deck::Source::name);
     let included = deck
         .files()
@@ -185,7 +185,7 @@ fn command(arguments: &ReportArguments) -> String {
     };
     let given = std::env::args_os().skip(1);
     let given = given.map(|argument| {
-        // Two reports of the same are the same, wherever they are written.
+        // Reports of the same inputs are equal, wherever they are written.
         if Some(argument.as_os_str()) == output {
             "report.html".to_owned()
         } else {

@@ -212,7 +212,7 @@ fn joint_area(
     let of_nodes = interfaces.lumped(pair)?.area;
     let slave = terminals.iter().find(|terminal| terminal.name == pair.slave);
     let across = slave.filter(|_| arguments.results.is_empty()).and_then(Terminal::area);
-    // The same to rounding is that of the nodes.
+    // Equal up to rounding: that of the nodes.
     Some(across.filter(|area| SAME_AREA < (area - of_nodes).abs() / area).unwrap_or(of_nodes))
 }
 
@@ -265,19 +265,19 @@ fn lumped(
         unplaced.push("what bodies conduct of pore fluid: give `hydraulic` links".to_owned());
     }
     for field in fields {
-        // Of another field the same body may be sound.
+        // The same body may be valid in another field.
         let mut reduced: Option<Body> = None;
         loop {
             match reduced.as_ref().unwrap_or(&body).lumped(field, arguments.temperature) {
                 Ok(lumped) => {
-                    // What is missing for capacities matters to a transient only.
+                    // Missing data for capacities matter only in a transient.
                     if regime == Regime::Transient {
                         notes.extend(lumped.left_out.iter().cloned());
                     }
                     found.push(lumped);
                     break;
                 }
-                // The links of the other bodies are what they are.
+                // The links of the other bodies are kept.
                 Err(error) if error.faults().iter().all(|fault| !fault.bodies.is_empty()) => {
                     take_faults(
                         error.faults(),
@@ -315,7 +315,7 @@ fn placed(meshed: &MeshedDeck, mut notes: Vec<MeshNote>, unplaced: Lines) -> Res
     let mut met: BTreeSet<(Span, String)> = BTreeSet::new();
     let mut spans: BTreeSet<Span> = BTreeSet::new();
     let plain = |note: &MeshNote| note.message.ends_with(" is not taken over");
-    // What says more than that comes first.
+    // More specific messages come first.
     notes.sort_by_key(|note| (note.span, plain(note)));
     notes.retain(|note| {
         let is_first = spans.insert(note.span);

@@ -84,7 +84,7 @@ fn run_on_threads(arguments: &SolveArguments, mut messages: Messages<'_>) -> Res
     let reading = arguments.reading.options();
     let prepared = SolvableScene::read(&arguments.scene, &laws, &reading, &mut messages)?;
     let Some(prepared) = prepared else { return Ok(Outcome::HasErrors) };
-    // The files that the scene is made from are known now.
+    // The input files of the scene are known now.
     files::check_targets(&targets)?;
     let Some(problem) = prepared.problem(&mut messages) else { return Ok(Outcome::HasErrors) };
     let method = arguments.solver.solver;
@@ -108,7 +108,7 @@ fn run_on_threads(arguments: &SolveArguments, mut messages: Messages<'_>) -> Res
         }
     };
     let Some(last) = last else { return Ok(Outcome::HasErrors) };
-    // The states before a failure hold, and took their time: they are kept as those of a whole run are.
+    // The states before a failure are valid, and were expensive: they are kept like those of a complete run.
     outputs.finish(&last, messages)?;
     let Some(report) = ran else { return Ok(Outcome::HasErrors) };
     let summary = summary::Summary {

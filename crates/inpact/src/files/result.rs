@@ -144,7 +144,7 @@ impl ResultFile {
     }
 }
 
-/// Whether a path leads through the descriptors of this program, such as `/dev/fd/3`: the file there belongs to whoever opened it.
+/// Whether a path leads through the descriptors of this program, such as `/dev/fd/3`: the file there belongs to the process that opened it.
 fn is_open_descriptor(path: &Path) -> bool {
     let folder = path.parent().and_then(|folder| folder.canonicalize().ok());
     folder.is_some_and(|folder| folder.ends_with("fd") && (folder.starts_with("/proc") || folder.starts_with("/dev")))

@@ -88,7 +88,7 @@ impl<'a> Place<'a> {
         }
     }
 
-    /// The keyword line that begins there, as far as it is determined.
+    /// The keyword line that begins there, as far as it is known.
     fn entry(&self, keyword_start: u64) -> Option<Entry<'a>> {
         let begins = |entry: &Entry<'_>| {
             entry.keyword.span.source() == self.view.source

@@ -1,6 +1,6 @@
 //! Real libraries, compiled by gfortran, and files that are not libraries.
 //!
-//! Without gfortran the tests of real libraries do nothing and say so; where `INPACT_REQUIRE_GFORTRAN` is set, as in the gate, they fail instead.
+//! Without gfortran the tests of real libraries are skipped with a message; where `INPACT_REQUIRE_GFORTRAN` is set, as in CI, they fail instead.
 
 use super::load;
 use inpact_evaluation::law::{UserConductancePoint, UserConductanceValue, UserLaw, UserName, UserNames};
@@ -256,7 +256,7 @@ fn files_that_are_no_library_for_this_machine_are_refused_by_what_they_are() {
         let found = refused(bytes);
         assert!(found.contains(&format!("lib.so` {message}")), "{message}: {found}");
     }
-    // Right as far as it goes; the loader of the system has the last word.
+    // Valid as far as checked here; the system loader decides.
     assert!(refused(&elf(2, 1, 3, 62)).starts_with("cannot load `"));
 }
 

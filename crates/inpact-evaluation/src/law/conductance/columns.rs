@@ -175,7 +175,7 @@ impl BranchColumns {
         Self { tables, forms, needs, variables }
     }
 
-    /// The table of a branch as it is evaluated.
+    /// The evaluator of the table of a branch.
     pub(crate) fn form(&self, branch: Branch) -> Option<&Evaluator> {
         self.forms[place(branch)].as_ref()
     }

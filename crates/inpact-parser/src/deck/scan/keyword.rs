@@ -16,7 +16,7 @@ pub(super) enum AfterComma {
     ///
     /// The line is read as a row, and the comma in front of it is nothing to complain about: without it a flag would be one.
     PerhapsFlags,
-    /// The next line would make it longer than so many bytes.
+    /// The next line would make it exceed this number of bytes.
     TooLong(u32),
 }
 

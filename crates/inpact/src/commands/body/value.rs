@@ -127,7 +127,7 @@ struct Solved {
 
 /// Everything that was found, as text.
 pub(super) fn written(found: &Found<'_>) -> String {
-    // A document of strings and numbers has no reason to fail.
+    // A document of strings and numbers cannot fail.
     serde_json::to_string_pretty(&document(found)).unwrap_or_default() + "\n"
 }
 

@@ -132,7 +132,7 @@ impl Increments<'_, '_> {
         }
     }
 
-    /// Sets integrals and statuses of a chunk that [`Chunk::add_steps`] has gone through, and counts what is to be said of its rows.
+    /// Sets integrals and statuses of a chunk after [`Chunk::add_steps`], and counts remarks on its rows.
     pub(crate) fn end_steps(
         &self,
         chunk: &Chunk,
