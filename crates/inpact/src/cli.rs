@@ -62,7 +62,7 @@ enum Command {
     Man,
 }
 
-/// Runs the program with these arguments, the name of the program first; results go to standard output, what there is to say to standard error.
+/// Runs the program with these arguments, the name of the program first; results go to standard output, messages to standard error.
 ///
 /// ```
 /// use std::process::ExitCode;

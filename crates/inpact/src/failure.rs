@@ -52,12 +52,12 @@ impl Failure {
         Self::Read { path: path.to_owned(), error }
     }
 
-    /// Whether whoever reads our output has seen enough, which is no fault.
+    /// Whether the reader of the output has closed the pipe, which is not a fault.
     pub(crate) fn is_closed_pipe(&self) -> bool {
         matches!(self, Self::Output(error) if error.kind() == io::ErrorKind::BrokenPipe)
     }
 
-    /// The same of a file that is better known by another name.
+    /// The same for a file under its user-visible name.
     pub(crate) fn about(self, name: &Path) -> Self {
         match self {
             Self::Read { error, .. } => Self::read(name, error),
@@ -70,14 +70,14 @@ impl Failure {
     }
 }
 
-/// A mesh whose rows cannot be made is wrong in the data, not in the reading of it.
+/// A mesh whose rows cannot be made is a fault of the data, not of reading.
 impl From<inpact_contact::Error> for Failure {
     fn from(error: inpact_contact::Error) -> Self {
         Self::Data(error.to_string())
     }
 }
 
-/// The exit code of a command, after saying on standard error why it failed.
+/// The exit code of a command, after printing the reason of a failure to standard error.
 pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
     match result {
         Ok(Outcome::Clean) => ExitCode::SUCCESS,
@@ -92,7 +92,7 @@ pub(crate) fn exit_code(result: Result<Outcome, Failure>) -> ExitCode {
     }
 }
 
-/// Prints what clap has to say: help and version to standard output, a usage error to standard error.
+/// Prints the message of clap: help and version to standard output, a usage error to standard error.
 pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
     let plain = error.render().to_string();
     match visible(&plain) {
@@ -104,12 +104,12 @@ pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
     ExitCode::from(u8::try_from(error.exit_code()).unwrap_or(2))
 }
 
-/// Writes a message to standard error, hidden characters written out; a standard error that is closed is no reason to stop.
+/// Writes a message to standard error, with invisible characters escaped; a closed standard error is ignored.
 pub(crate) fn say(message: &str) {
     write_line(&visible(message));
 }
 
-/// Says failures, a line each.
+/// Prints failures, one line each.
 pub(crate) fn say_failures(failures: &[Failure]) {
     for failure in failures {
         say(&format!("error: {failure}"));
@@ -121,7 +121,7 @@ pub(crate) fn say_json(json: &str) {
     write_line(&visible_json(json));
 }
 
-/// Writes a text to standard error whose hidden characters were written out before it was coloured.
+/// Writes a text to standard error whose invisible characters were escaped before colouring.
 pub(crate) fn say_as_it_is(text: &str) {
     use std::io::Write;
     let _ = io::stderr().lock().write_all(text.as_bytes());

@@ -34,7 +34,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Reads nothing outside of the repository where decks of strangers are judged.
+    /// Restricts reading to the repository where untrusted decks are checked.
     pub(crate) fn confine(self, settings: &mut Settings, path: &Path) {
         if matches!(self, Self::Github | Self::Sarif) {
             settings.confine_to_repository(path);
@@ -72,7 +72,7 @@ impl Style {
     }
 }
 
-/// Findings in one deck, or in data, as text; [`document`] makes a whole of the texts of several.
+/// Findings in one deck, or in data, as text; [`document`] combines the texts of several.
 pub(crate) fn diagnostics(diagnostics: &[Diagnostic], sources: Sources<'_>, format: Format, style: Style) -> String {
     let lines = |write: fn(&Diagnostic, Sources<'_>) -> String| -> String {
         diagnostics.iter().map(|found| write(found, sources)).collect()
@@ -95,7 +95,7 @@ pub(crate) fn document(format: Format) -> Document {
     }
 }
 
-/// A whole SARIF document of a run that has more to say than findings.
+/// A complete SARIF document of a run with data besides findings.
 pub(crate) fn sarif_of_run(results: &[String], run: &SarifRun) -> String {
     let Document { head, separator, tail } = sarif::frame(run);
     visible_json(&(head + &results.join(separator) + &tail)).into_owned()

@@ -16,7 +16,7 @@ pub(crate) fn of_code(code: &str) -> Option<&'static Rule> {
     all().find(|rule| rule.code == code)
 }
 
-/// Whether data in which a rule finds something cannot be evaluated, whatever the configuration says of it.
+/// Whether data with a finding of a rule cannot be evaluated, whatever its configured severity.
 pub(crate) fn is_final(rule: &Rule) -> bool {
     let mut of_data = DATA_RULES.iter().chain(SCENE_RULES).chain(BODY_RULES);
     rule.severity == Severity::Error && of_data.any(|of_data| of_data.code == rule.code)

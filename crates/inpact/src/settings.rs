@@ -56,11 +56,11 @@ pub(crate) enum Configuration {
     Nothing,
 }
 
-/// Files whose content is known without their being read, by their whole paths: what an editor has open, or what was parsed from a text.
+/// Files with content in memory, by their canonical paths: open in an editor, or parsed from a text.
 pub(crate) type Overlay = BTreeMap<PathBuf, EditedText>;
 
 impl ReadOptions {
-    /// Everything as the configuration above the deck has it.
+    /// The options of the configuration above the deck.
     pub fn new() -> Self {
         Self::default()
     }

@@ -147,7 +147,7 @@ fn make(arguments: &BodyArguments, messages: Messages<'_>) -> Result<Outcome, Fa
     Ok(Outcome::Clean)
 }
 
-/// Says every fault with its place.
+/// Reports every fault with its place.
 fn refused(
     meshed: &MeshedDeck,
     error: &inpact_body::Error,

@@ -166,7 +166,7 @@ struct Round {
     places: Vec<Vec<PathBuf>>,
 }
 
-/// Checks decks, mends them where that is asked for, and says what was found.
+/// Checks decks, fixes them on request, and reports the findings.
 fn check_all(decks: &[Named], arguments: &CheckArguments) -> Result<Round, Failure> {
     let changed = arguments.since.as_deref().map(Changed::since).transpose()?;
     let progress = Progress::over(decks.iter().map(|deck| deck.path.as_path()), arguments.quiet);
@@ -261,7 +261,7 @@ fn check_one<'a>(path: &'a Path, arguments: &CheckArguments, progress: &Progress
     }
 }
 
-/// Checks a deck as it is; the files of one that needs mending are held.
+/// Checks a deck without changing it; the files of one to be fixed are kept in memory.
 fn check_deck<'a>(path: &'a Path, arguments: &CheckArguments, progress: &Progress) -> Result<Checked<'a>, Failure> {
     let selection = arguments.selection();
     let mut settings = arguments.reading.settings(path)?;

@@ -2,7 +2,7 @@
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-/// The name of a value, the value, and what `--help` says of it.
+/// The name of a value, the value, and its description in `--help`.
 pub(crate) type Choice<T> = (&'static str, T, &'static str);
 
 /// Reads a value by its name.

@@ -93,7 +93,7 @@ pub(crate) fn run(arguments: &CompareArguments) -> Result<Outcome, Failure> {
     Ok(if comparison.is_beyond() { Outcome::HasErrors } else { Outcome::Clean })
 }
 
-/// The outputs that the solver says something of, each with its values a row.
+/// The outputs with values of the solver, each with one value per row.
 fn outputs_said(prepared: &Evaluable, geometry: &Geometry) -> Vec<(Output, Quantity)> {
     let Some(made) = &prepared.made else { return Vec::new() };
     let fields = || made.drawn.states.iter().flat_map(|state| &state.outputs);
@@ -109,7 +109,7 @@ fn outputs_said(prepared: &Evaluable, geometry: &Geometry) -> Vec<(Output, Quant
     said.into_iter().map(quantity).chain(heat).collect()
 }
 
-/// Some outputs as the deck's laws give them, a value a row each; none of one that is not planned.
+/// Some outputs by the deck's laws, one value per row each; none for an output that is not planned.
 fn evaluated(
     deck: &Path,
     prepared: &mut Evaluable,

@@ -81,7 +81,7 @@ fn run_on_threads(arguments: &EvalArguments, messages: Messages<'_>) -> Result<O
     Ok(Outcome::Clean)
 }
 
-/// Evaluates the node table; gives the counts and the number of rows written. `went_out` is how many rows nothing takes back.
+/// Evaluates the node table; returns the counts and the number of rows written. `went_out` is the number of rows that cannot be undone.
 fn evaluate(
     arguments: &EvalArguments,
     evaluable: &mut Evaluable,
@@ -113,7 +113,7 @@ fn evaluate(
     Ok((tally, rows_out))
 }
 
-/// Writes all results; an error of reading rows, or within one of writing.
+/// Writes all results; an error of reading rows, or in the inner result one of writing.
 fn write(
     rows: &mut GivenBack,
     mut evaluation: Evaluation<'_>,
@@ -133,7 +133,7 @@ fn write(
     Ok(ran.and_then(|()| writer.finish()).map(|_| evaluation.finish()))
 }
 
-/// Says why there is nothing to evaluate: the columns that are missing, or what else is in the way.
+/// Reports why there is nothing to evaluate: missing columns, or other obstacles.
 fn nothing_to_evaluate(evaluable: &Evaluable, messages: Messages<'_>) -> Failure {
     let mut findings = Findings::new(&evaluable.nodes_name);
     evaluable.plan.report_missing(&mut findings);
@@ -143,7 +143,7 @@ fn nothing_to_evaluate(evaluable: &Evaluable, messages: Messages<'_>) -> Failure
     Failure::Data(format!("nothing of `{}` can be evaluated on these rows{reasons}", evaluable.deck_name))
 }
 
-/// The summary of an evaluation as `eval` has it, but the time it took.
+/// The summary of an evaluation as in `eval`, without the time.
 pub(super) fn summary_lines(tally: &Tally, plan: &Plan) -> Vec<String> {
     let summary = Summary { tally, plan, rows_out: tally.rows, time: std::time::Duration::ZERO };
     std::iter::once(counted(tally.rows, "row")).chain(summary.of_interactions()).collect()

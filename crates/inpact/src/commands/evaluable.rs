@@ -26,13 +26,13 @@ use std::io::{self, BufReader, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// For each thread, how many pieces of a node table are decoded ahead.
+/// The number of pieces of a node table decoded ahead, per thread.
 const READ_AHEAD: usize = 2;
 
-/// The number of bytes of the rows of a node table that stay in memory; the rest waits in a temporary file.
+/// The number of bytes of the rows of a node table kept in memory; the rest is spilled to a temporary file.
 const ROOM_FOR_ROWS: usize = 128 << 20;
 
-/// For so long rounds of reading and evaluating all rows are begun, which may take long each.
+/// The time during which further rounds of reading and evaluating all rows are started.
 pub(crate) const PATIENCE: Duration = Duration::from_secs(2);
 
 #[derive(Debug, Default, Args)]
@@ -156,7 +156,7 @@ impl EvaluableArguments {
         paths.map(PathBuf::as_path).collect()
     }
 
-    /// Reads deck and node table and makes the plan; `None` after saying what is wrong with the node table.
+    /// Reads deck and node table and makes the plan; `None` after reporting faults of the node table.
     pub(crate) fn prepare(
         &self,
         laws: &LawArguments,
@@ -166,7 +166,7 @@ impl EvaluableArguments {
         self.prepare_in_rounds(laws, reading, messages, 1)
     }
 
-    /// The same, where the rows are read so many times and the least of the times counts.
+    /// The same, where the rows are read this many times and the minimum time is used.
     pub(crate) fn prepare_in_rounds(
         &self,
         laws: &LawArguments,
@@ -224,7 +224,7 @@ impl EvaluableArguments {
         }))
     }
 
-    /// The least time of reading the rows, in further rounds as long as there is patience; of a stream the time of the only one.
+    /// The minimum time of reading the rows, in further rounds up to a time limit; for a stream the time of the only one.
     fn least_reading(
         &self,
         first: Duration,
@@ -270,7 +270,7 @@ impl EvaluableArguments {
         if self.derivatives || by_name { Derivatives::Given } else { Derivatives::LeftOut }
     }
 
-    /// Does some work with as many threads as are wanted.
+    /// Runs work with the requested number of threads.
     pub(crate) fn with_threads<T: Send>(&self, work: impl FnOnce() -> T + Send) -> T {
         with_threads(self.threads.map_or(0, usize::from), work)
     }
@@ -280,7 +280,7 @@ impl EvaluableArguments {
         self.nodes.as_deref().unwrap_or(&self.deck)
     }
 
-    /// Makes the rows of a deck's mesh and of the results of its job, and looks at them; `None` after saying what is wrong with them.
+    /// Makes the rows of a deck's mesh and of the results of its job, and surveys them; `None` after reporting their faults.
     fn survey_mesh(
         &self,
         meshed: &MeshedDeck,
@@ -322,7 +322,7 @@ impl EvaluableArguments {
 }
 
 impl Evaluable {
-    /// Says what is wrong with rows that were evaluated; true if there are errors.
+    /// Reports faults of evaluated rows; true if there are errors.
     pub(crate) fn say(&mut self, findings: Findings, messages: Messages<'_>) -> bool {
         let mut found = findings.into_list();
         if let (Some(table), true) = (&mut self.table, messages.shows_lines()) {
@@ -333,7 +333,7 @@ impl Evaluable {
     }
 }
 
-/// Reads a node table and looks at its rows; `None` after saying what is wrong with them.
+/// Reads a node table and surveys its rows; `None` after reporting their faults.
 fn survey_table(
     path: &Path,
     model: &Model,
@@ -361,18 +361,18 @@ fn survey_table(
     }))
 }
 
-/// Room for rows that are to be evaluated, first in memory, then in a temporary file.
+/// Storage for rows to be evaluated, first in memory, then in a temporary file.
 pub(crate) fn kept_rows() -> KeptRows {
     KeptRows::new(ROOM_FOR_ROWS, spill_file())
 }
 
-/// Makes a temporary file for rows that memory has no room for.
+/// Makes a temporary file for spilled rows.
 pub(crate) fn spill_file() -> MakeSpillFile {
     Box::new(|| Ok(Box::new(tempfile::tempfile()?)))
 }
 
 impl Evaluable {
-    /// The rows once more, so that they can be gone through a second time.
+    /// A copy of the rows for a second pass.
     pub(crate) fn rows_again(&mut self, arguments: &EvaluableArguments) -> Result<KeptRows, Failure> {
         self.rows.try_clone(spill_file()).map_err(|error| Failure::read(arguments.nodes_path(), error))
     }
@@ -416,7 +416,7 @@ impl NodesInput {
     }
 }
 
-/// Why parts of a plan are left out, but for columns that are missing.
+/// The reasons why parts of a plan are left out, except missing columns.
 pub(crate) fn other_reasons(plan: &Plan) -> impl Iterator<Item = String> {
     plan.interactions.iter().flat_map(|interaction| {
         let others = interaction.left_out.iter().filter(|left_out| !matches!(left_out.reason, Reason::Missing(_)));

@@ -68,7 +68,7 @@ fn plain(markdown: &str) -> String {
     text + &aligned(&table)
 }
 
-/// A table of Markdown with its columns one below another.
+/// A Markdown table with aligned columns.
 fn aligned(table: &[&str]) -> String {
     let cells = |line: &str| line.trim_matches('|').split('|').map(|cell| cell.trim().to_owned()).collect::<Vec<_>>();
     let is_ruler = |line: &&&str| line.starts_with("|---");

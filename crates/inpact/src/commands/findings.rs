@@ -45,10 +45,10 @@ impl PrintedAs {
 #[derive(Debug)]
 pub(crate) struct Gathered(Mutex<(Vec<String>, SarifRun)>);
 
-/// Nothing is ever gathered of formats that are said at once.
+/// Nothing is collected for formats that are printed immediately.
 static NOTHING: Gathered = Gathered(Mutex::new((Vec::new(), SarifRun { notes: Vec::new(), failure: None })));
 
-/// Does some work that has something to say; a document as a whole is said when it has ended, in whatever way.
+/// Runs work with messages; a format that is a single document is printed at the end, whatever the outcome.
 pub(crate) fn with_messages(
     format: Format,
     work: impl FnOnce(Messages<'_>) -> Result<Outcome, Failure>,
@@ -76,20 +76,20 @@ impl Messages<'static> {
     /// A line each.
     pub(crate) const LINES: Self = Self::at_once(Format::Concise);
 
-    /// Does some work of which nothing is to be heard.
+    /// Runs work without printing messages.
     pub(crate) fn unheard<T>(work: impl FnOnce(Messages<'_>) -> T) -> T {
         // They are collected, and not printed.
         work(Messages { format: Format::Sarif, gathered: &Gathered(Mutex::default()) })
     }
 
-    /// In a format of which nothing is gathered.
+    /// In a format that is printed immediately.
     pub(crate) const fn at_once(format: Format) -> Self {
         Self { format, gathered: &NOTHING }
     }
 }
 
 impl Messages<'_> {
-    /// Says something that is no finding: lines for a person, or a JSON object.
+    /// Prints a message that is not a finding: readable lines, or a JSON object.
     pub(crate) fn tell(self, lines: impl FnOnce() -> Vec<String>, json: impl FnOnce() -> String) {
         match self.format {
             Format::Json => say_json(&json()),
@@ -98,7 +98,7 @@ impl Messages<'_> {
         }
     }
 
-    /// Says a line that programs have no use for, in every format.
+    /// Prints a line that programs do not need, in every format.
     pub(crate) fn line(self, line: &str) {
         match self.format {
             Format::Sarif => self.gathered().1.notes.push(line.to_owned()),
@@ -106,19 +106,19 @@ impl Messages<'_> {
         }
     }
 
-    /// Says a line where lines are for a person, and nothing in JSON.
+    /// Prints a line in readable formats, and nothing in JSON.
     pub(crate) fn remark(self, line: impl FnOnce() -> String) {
         if self.format != Format::Json {
             self.line(&line());
         }
     }
 
-    /// Says what is wrong with a node table or a scene, as the configuration has it; true if there are errors.
+    /// Reports findings of a node table or a scene with the configured severities; true if there are errors.
     pub(crate) fn data(mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
         Reporter::data(&mut self, found, settings)
     }
 
-    /// Says what is wrong with a deck beside what the check finds, as the configuration has it; true if there are errors.
+    /// Reports findings of a deck other than those of the check with the configured severities; true if there are errors.
     pub(crate) fn of_deck(self, found: Vec<Diagnostic>, deck: &Deck, settings: &Settings) -> bool {
         let found = settings.apply(found);
         // A finding about the whole deck has no lines to show.
@@ -129,7 +129,7 @@ impl Messages<'_> {
         has_errors(&found)
     }
 
-    /// Says what the check found in some interactions, notes left out; true if there are errors.
+    /// Reports the findings of the check in some interactions, without notes; true if there are errors.
     pub(crate) fn deck(
         mut self,
         found: &[Diagnostic],
@@ -157,39 +157,39 @@ impl Messages<'_> {
     }
 }
 
-/// The interactions of a run, and its regime where the run says which and no procedure of the deck does.
+/// The interactions of a run, and its regime where the run overrides the procedures of the deck.
 pub(crate) type Governing<'a> = (&'a [&'a Name], Option<Regime>);
 
 /// Receiver of findings: a command prints them, the library collects them.
 pub(crate) trait Reporter {
-    /// Reads nothing outside of the repository where that is wanted.
+    /// Restricts reading to the repository where requested.
     fn confine(&self, settings: &mut Settings, path: &Path);
 
     /// Whether findings are given with the lines around them.
     fn shows_lines(&self) -> bool;
 
-    /// Takes the whole paths of files that are read, or would be if they were there.
+    /// Takes the canonical paths of files that are read, or would be if they existed.
     fn files(&mut self, _: &[PathBuf]) {}
 
-    /// Takes findings as the configuration has them.
+    /// Takes findings with the configured severities.
     fn take(&mut self, found: &[Diagnostic], sources: Sources<'_>);
 
-    /// Takes what the check found in a deck, of which only a part was shown.
+    /// Takes the findings of the check in a deck, of which only a part was shown.
     fn beside(&mut self, _found: &[Diagnostic], _shown: &[Diagnostic], _: &Deck) {}
 
-    /// Takes several files that cannot be read; gives what the command or the call fails with.
+    /// Takes several files that cannot be read; returns the failure of the command or call.
     fn failures(&mut self, failures: Vec<Failure>) -> Failure {
         as_one(failures)
     }
 
-    /// Takes what is wrong with a node table or a scene; true if there are errors, as the configuration has it.
+    /// Takes the findings of a node table or a scene; true if there are errors with the configured severities.
     fn data(&mut self, found: Vec<Diagnostic>, settings: &Settings) -> bool {
         let found = settings.apply(found);
         self.take(&found, Sources::Data);
         has_errors(&found)
     }
 
-    /// Takes what the check found in some interactions, notes left out; true if there are errors.
+    /// Takes the findings of the check in some interactions, without notes; true if there are errors.
     fn deck(
         &mut self,
         found: &[Diagnostic],
@@ -269,7 +269,7 @@ pub(crate) fn has_errors(found: &[Diagnostic]) -> bool {
     found.iter().any(|found| found.severity == Severity::Error)
 }
 
-/// Refuses to keep a result where the configuration makes an error of what was found in its data.
+/// Rejects a result where the configuration turns findings in its data into errors.
 pub(crate) fn refuse_configured_errors(found: &[Diagnostic], settings: &Settings) -> Result<(), Failure> {
     if has_errors(&settings.apply(found.to_vec())) {
         let message = "the configuration makes an error of what was found, and no result is written";

@@ -36,7 +36,7 @@ pub(crate) struct FormatArguments {
     reading: DeckArguments,
 }
 
-/// The number of decks that are held in memory at a time.
+/// The number of decks in memory at a time.
 const AT_A_TIME: usize = 32;
 
 /// Counts of the files.
@@ -114,7 +114,7 @@ fn read(path: &Path, arguments: &FormatArguments) -> Result<(Snapshot, Vec<u8>),
     Ok((before, after))
 }
 
-/// Writes a file back, on condition that it still is what was read.
+/// Writes a file back, if it is unchanged since it was read.
 fn write_back(file: Snapshot, after: Vec<u8>) -> Result<(), Failure> {
     if !file.is_file() {
         let error = std::io::Error::new(std::io::ErrorKind::InvalidInput, "it is no file that can be written back");

@@ -39,7 +39,7 @@ pub(crate) fn run(arguments: &InpArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// The files that the JSON says, after saying in which language, where it is not the newest of Abaqus.
+/// The files of the JSON, after reporting their language, where it is not the newest of Abaqus.
 fn decks(text: &str) -> Result<Vec<(String, Vec<u8>)>, String> {
     let json_deck::Files { files, language } = json_deck::files(text)?;
     if let Some((dialect, _)) = language.filter(|language| *language != json_deck::NEWEST) {

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 use std::path::PathBuf;
 use std::time::Instant;
 
-/// More names than these in a line nobody reads.
+/// The maximum number of names in a line.
 const MOST_NAMES: usize = 10;
 
 #[derive(Debug, Args)]
@@ -90,7 +90,7 @@ fn make(arguments: &InterfacesArguments, messages: Messages<'_>) -> Result<Outco
     Ok(Outcome::Clean)
 }
 
-/// When the state is, where there are several.
+/// The time of the state, where there are several.
 fn when(state: &State, states: usize) -> String {
     match state.moment.time {
         Some(time) => format!(" at time {} (the last of {})", number_text(time), counted(states, "state")),
@@ -104,7 +104,7 @@ fn header(interfaces: &Interfaces) -> Vec<String> {
     own.into_iter().chain(interfaces.quantities.iter().map(ToString::to_string)).collect()
 }
 
-/// A row a slave node.
+/// One row per slave node.
 fn node_rows_of(interfaces: &Interfaces) -> Vec<Vec<String>> {
     let rows = interfaces.pairs.iter().flat_map(|pair| pair.rows.iter().map(move |row| (pair, row)));
     let cells = rows.map(|(pair, row)| {
@@ -114,7 +114,7 @@ fn node_rows_of(interfaces: &Interfaces) -> Vec<Vec<String>> {
     cells.collect()
 }
 
-/// A row a pair.
+/// One row per pair.
 fn lumped_rows(interfaces: &Interfaces) -> Vec<Vec<String>> {
     let lumped = interfaces.pairs.iter().filter_map(|pair| Some((pair, interfaces.lumped(pair)?)));
     let cells = lumped.map(|(pair, lumped)| {
@@ -130,7 +130,7 @@ fn cells(names: [&str; 3], area: f64, values: impl Iterator<Item = Option<f64>>)
     texts.chain(numbers.map(|value| value.map_or_else(String::new, number_text))).collect()
 }
 
-/// A row a slave node and node of the face that is nearest.
+/// One row per slave node and node of the nearest face.
 fn projections(interfaces: &Interfaces) -> Vec<u8> {
     let header = ["slave", "master", "master_node", "weight", "element", "face", "clearance", "overhang", "projects"];
     let rows = interfaces.pairs.iter().flat_map(|pair| &pair.projections);
@@ -153,7 +153,7 @@ fn projections(interfaces: &Interfaces) -> Vec<u8> {
     csv(std::iter::once(header.map(str::to_owned).to_vec()).chain(cells))
 }
 
-/// Remarks on a pair: which nodes hang over the edge, and what lumping averages.
+/// Remarks on a pair: nodes beyond the edge, and the averages of lumping.
 fn lines(interfaces: &Interfaces, pair: &PairInterfaces, lumped: bool) -> Vec<String> {
     let mut lines = Vec::new();
     let lumped = if lumped { interfaces.lumped(pair) } else { None };
@@ -173,7 +173,7 @@ fn lines(interfaces: &Interfaces, pair: &PairInterfaces, lumped: bool) -> Vec<St
     lines
 }
 
-/// The means of a pair with their ranges: averaging is a choice that whoever uses them must see.
+/// The means of a pair with their ranges, as averaging is a modelling choice.
 pub(crate) fn lumped_lines(interfaces: &Interfaces, lumped: &LumpedPair) -> Vec<String> {
     let mut lines = Vec::new();
     for (quantity, mean) in interfaces.quantities.iter().zip(&lumped.means) {

@@ -87,7 +87,7 @@ fn draw(rows: &mut NodeRows<'_>, drawn: &Drawn, target: &Path) -> Result<(), Fai
     writer.finish()
 }
 
-/// Writes the rows of all states as a node table; what cannot be written is a failure of an output without a name.
+/// Writes the rows of all states as a node table; a write error is a failure of an unnamed output.
 fn write(
     rows: &mut NodeRows<'_>,
     states: &[State],

@@ -129,7 +129,7 @@ fn as_json(evaluable: &Evaluable) -> String {
     format!("{document:#}\n")
 }
 
-/// A part of the evaluation with its estimated cost in nanoseconds a row, its parts included.
+/// A part of the evaluation with its estimated cost in nanoseconds per row, including its parts.
 fn node(part: &Node) -> Value {
     json!({ "name": part.name, "cost": part.total(), "parts": part.parts.iter().map(node).collect::<Vec<_>>() })
 }

@@ -84,7 +84,7 @@ enum PictureKind {
 
 const MOST_PANELS: usize = 40;
 
-/// The most changes between two decks that are named.
+/// The maximum number of changes between two decks that are listed.
 const MOST_CHANGES: usize = 20;
 
 /// The number of values of a curve on logarithmic axes, where it is not straight between its rows.
@@ -105,7 +105,7 @@ impl DrawingArguments {
         }
     }
 
-    /// Refuses names of interactions that none of the decks has.
+    /// Rejects names of interactions that none of the decks has.
     pub(crate) fn refuse_unknown(&self, models: &[&Model]) -> Result<(), Failure> {
         for name in &self.interaction {
             let wanted = Name::new(name);
@@ -168,7 +168,7 @@ pub(crate) fn run(arguments: &PlotArguments) -> Result<Outcome, Failure> {
     Ok(Outcome::Clean)
 }
 
-/// Evaluates the node table; `None` after saying what is wrong with it or with the deck.
+/// Evaluates the node table; `None` after reporting its faults or those of the deck.
 fn gathered(arguments: &PlotArguments, nodes: &Path) -> Result<Option<(Gathered, Evaluable)>, Failure> {
     let evaluable = EvaluableArguments::of_nodes(arguments.decks[0].clone(), nodes.to_owned());
     files::name_as_inputs(&evaluable.inputs());

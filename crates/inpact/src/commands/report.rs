@@ -105,7 +105,7 @@ struct Evaluated {
     rows_have_errors: bool,
 }
 
-/// Evaluates the node table; `None` after saying what is wrong with it.
+/// Evaluates the node table; `None` after reporting its faults.
 fn evaluated(arguments: &ReportArguments) -> Result<Option<Evaluated>, Failure> {
     let deck = arguments.deck.clone();
     let evaluable = match &arguments.nodes {
@@ -156,7 +156,7 @@ impl Evaluated {
     }
 }
 
-/// The files that the page is made from.
+/// The input files of the page.
 fn inputs(arguments: &ReportArguments, deck: &Deck) -> Result<Vec<Input>, Failure> {
     let is_stream = arguments.deck.as_os_str() == files::STANDARD_STREAM;
     let mut inputs = vec![Input::of(&arguments.deck)?];
@@ -175,7 +175,7 @@ fn inputs(arguments: &ReportArguments, deck: &Deck) -> Result<Vec<Input>, Failur
     Ok(inputs)
 }
 
-/// The arguments as they were given, without the folder that the program is in.
+/// The arguments as given, without the folder of the program.
 fn command(arguments: &ReportArguments) -> String {
     let output = arguments.output.as_ref().map(|path| path.as_os_str());
     let is_word =

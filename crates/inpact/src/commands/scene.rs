@@ -202,7 +202,7 @@ fn make(
     Ok(Made { whole, nodes: terminals.len(), not_taken, missing, lumping })
 }
 
-/// The area of a joint: that of its slave surface which has the master across, and with result files that of the slave nodes; `None` where nothing is known of any.
+/// The area of a joint: that of the part of its slave surface opposite the master, and with result files that of the slave nodes; `None` where it is unknown.
 fn joint_area(
     arguments: &SceneArguments,
     terminals: &[Terminal],
@@ -216,10 +216,10 @@ fn joint_area(
     Some(across.filter(|area| SAME_AREA < (area - of_nodes).abs() / area).unwrap_or(of_nodes))
 }
 
-/// Areas that differ by less are the same but for rounding.
+/// Areas that differ by less are equal up to rounding.
 const SAME_AREA: f64 = 1e-9;
 
-/// The fields of a procedure; heat where the deck does not say.
+/// The fields of a procedure; heat by default.
 fn fields_of(procedure: Option<&Procedure>) -> Vec<BodyField> {
     let is_of_fluid = procedure.is_some_and(Procedure::solves_pore_pressure);
     let is_electrical = procedure.is_some_and(Procedure::solves_electrical);
@@ -227,7 +227,7 @@ fn fields_of(procedure: Option<&Procedure>) -> Vec<BodyField> {
     thermal.into_iter().chain(is_electrical.then_some(BodyField::Electrical)).collect()
 }
 
-/// The bodies between their terminals, a field each; what keeps them from being lumped goes to the notes.
+/// The bodies between their terminals, by field; reasons why they cannot be lumped go to the notes.
 fn lumped(
     arguments: &SceneArguments,
     settings: &Settings,
@@ -310,7 +310,7 @@ fn take_faults(faults: &[BodyFault], ending: &str, notes: &mut Vec<MeshNote>, un
     }
 }
 
-/// Notes as lines, each with its place, in the order of the deck; of several about one keyword line the first.
+/// Notes as lines, each with its place, in the order of the deck; only the first of several about one keyword line.
 fn placed(meshed: &MeshedDeck, mut notes: Vec<MeshNote>, unplaced: Lines) -> Result<Lines, Failure> {
     let mut met: BTreeSet<(Span, String)> = BTreeSet::new();
     let mut spans: BTreeSet<Span> = BTreeSet::new();
@@ -338,7 +338,7 @@ impl SceneFiles for NoFiles {
     }
 }
 
-/// The findings of `solve` on what is missing: the scene is read back and posed.
+/// The findings of `solve` on missing data: the scene is read back and checked.
 fn missing(text: &str, meshed: &MeshedDeck, settings: &Settings) -> Lines {
     let (scene, found) = scene::read_as_far_as_it_goes(text, "scene", &mut NoFiles);
     let mut messages: Lines = found.iter().map(said).collect();
@@ -358,7 +358,7 @@ fn said(found: &inpact_diagnostics::Diagnostic) -> String {
     format!("[{}] {}{help}", found.code, found.message)
 }
 
-/// The files that the scene is made from, the deck first.
+/// The input files of the scene, the deck first.
 fn inputs(arguments: &SceneArguments, meshed: &MeshedDeck) -> Result<Vec<Input>, Failure> {
     let mut inputs = vec![Input::of(&arguments.deck)?];
     for source in meshed.read.deck.sources().iter().skip(1) {
@@ -370,7 +370,7 @@ fn inputs(arguments: &SceneArguments, meshed: &MeshedDeck) -> Result<Vec<Input>,
     Ok(inputs)
 }
 
-/// The command, without what says where the result goes.
+/// The command, without the output options.
 fn command(arguments: &SceneArguments) -> String {
     let mut command = format!("inpact scene {}", arguments.deck.display());
     if let Some(step) = arguments.step {
@@ -385,7 +385,7 @@ fn command(arguments: &SceneArguments) -> String {
     command
 }
 
-/// The deck as the scene names it: relative to the folder of the scene where it lies below that.
+/// The name of the deck in the scene: relative to the folder of the scene where it lies below that.
 fn deck_from(arguments: &SceneArguments) -> String {
     let deck = &arguments.deck;
     let target = arguments.output.as_deref().filter(|target| target.as_os_str() != STANDARD_STREAM);

@@ -28,7 +28,7 @@ impl TableOutput {
         self.output.as_deref()
     }
 
-    /// Where a picture goes, if one is asked for.
+    /// The target of a picture, if one is requested.
     pub(crate) fn picture(&self) -> Option<&Path> {
         self.target().filter(|target| self.output_format.is_none() && is_picture(target))
     }

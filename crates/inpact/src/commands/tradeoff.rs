@@ -22,7 +22,7 @@ use crate::settings::DeckArguments;
 use clap::{Args, ValueEnum};
 use std::path::{Path, PathBuf};
 
-/// No f64 is closer to every number than half an ulp: errors below are drawn there, since zero has no logarithm.
+/// Errors below half an ulp are drawn there, since zero has no logarithm.
 const LEAST_ERROR: f64 = f64::EPSILON / 4.0;
 
 #[derive(Debug, Args)]
@@ -69,7 +69,7 @@ const OF_TABLE: [&str; 11] = [
     "derivatives",
 ];
 
-/// Both ways to say what is measured on.
+/// Both forms of the command.
 const USAGE: &str = "\
 inpact tradeoff [OPTIONS] --nodes <FILE> <DECK>
        inpact tradeoff [OPTIONS] [--results <FILE>]... <DECK>

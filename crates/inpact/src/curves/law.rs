@@ -40,7 +40,7 @@ impl LawKind {
         }
     }
 
-    /// The keyword whose rows it is made of.
+    /// The keyword of its rows.
     pub fn keyword(self) -> &'static str {
         match self {
             Self::Electrical => OptionKind::GapElectricalConductance.keyword(),
@@ -67,7 +67,7 @@ pub(super) struct Value {
 }
 
 impl<'a> Law<'a> {
-    /// The law of that kind; `None` where the interaction has none of it that rows of the deck give.
+    /// The law of that kind; `None` where the interaction has none given by rows of the deck.
     pub(super) fn of(laws: &'a InterfaceLaws, kind: LawKind, characteristic_length: Option<f64>) -> Option<Self> {
         match kind {
             LawKind::Electrical => match laws.electrical.as_ref()? {
@@ -83,7 +83,7 @@ impl<'a> Law<'a> {
         }
     }
 
-    /// The clearance above which the law is switched off altogether, where it has one and it is known.
+    /// The clearance above which the law is switched off, if any and known.
     pub(super) fn cutoff(self) -> Option<f64> {
         match self {
             Self::Permeability(law, length) => law.cutoffs.flow_across.or(length),
@@ -91,14 +91,14 @@ impl<'a> Law<'a> {
         }
     }
 
-    /// Whether the law has values while open that do not follow from the rows against pressure.
+    /// Whether the values while open depend on the characteristic element length.
     pub(super) fn needs_characteristic_length(self) -> bool {
         matches!(self, Self::Permeability(..)) && self.cutoff().is_none()
     }
 
     /// The value at clearance or contact pressure `x`; `variables` are those of the rows after the first.
     ///
-    /// `None` where the law has none, as beyond a cutoff that is not known.
+    /// `None` where the law has none, as beyond an unknown cutoff.
     pub(super) fn value(self, side: Side, x: f64, variables: &[f64]) -> Option<Value> {
         let (state, clearance, pressure) = match side {
             Side::Open => (ContactState::Open, x, 0.0),
@@ -148,7 +148,7 @@ impl Value {
     }
 }
 
-/// Only along the axis of the curve a value is continued; of the others it is said where they are held.
+/// Continuation refers only to the axis of the curve; for other variables their fixed values are shown.
 fn reach(sides: Sides) -> Reach {
     if sides.is_below(0) || sides.is_above(0) { Reach::Continued } else { Reach::Within }
 }

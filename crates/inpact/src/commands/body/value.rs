@@ -125,7 +125,7 @@ struct Solved {
     iterations: Option<usize>,
 }
 
-/// Everything that was found, as text.
+/// All results, as text.
 pub(super) fn written(found: &Found<'_>) -> String {
     // A document of strings and numbers cannot fail.
     serde_json::to_string_pretty(&document(found)).unwrap_or_default() + "\n"

@@ -99,7 +99,7 @@ impl<'a> Outputs<'a> {
         Ok(())
     }
 
-    /// Takes the next state.
+    /// Adds the next state.
     pub(super) fn take(&mut self, state: &State) -> Result<(), Failure> {
         let (problem, times) = (self.problem, self.times);
         if !std::mem::replace(&mut self.has_begun, true) {
@@ -129,7 +129,7 @@ impl<'a> Outputs<'a> {
         Ok(())
     }
 
-    /// Writes what is left, and gives the files their names.
+    /// Writes the rest, and renames the files to their targets.
     pub(super) fn finish(mut self, last: &State, messages: Messages<'_>) -> Result<(), Failure> {
         match self.format {
             StateFormat::Csv => {
@@ -154,7 +154,7 @@ impl<'a> Outputs<'a> {
         Ok(())
     }
 
-    /// The JSON document: the last state on top, all of them below where there are several.
+    /// The JSON document: the last state first, then all of them where there are several.
     fn whole(&mut self, last: &State) -> Value {
         let fields: Vec<&str> = self.problem.solved_fields().iter().map(|field| field.key()).collect();
         let mut whole = Map::new();
