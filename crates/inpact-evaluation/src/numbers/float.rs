@@ -1,6 +1,6 @@
 //! The f64 itself: error-free sums and products, exponents, powers of two, the unit in the last place.
 
-/// The sum of `a` and `b`, rounded, and its rounding error (TwoSum): `a + b = sum + error` exactly, for magnitudes up to 2¹⁰²².
+/// The sum of `a` and `b`, rounded, and its rounding error (two-sum): `a + b = sum + error` exactly, for magnitudes up to 2¹⁰²².
 #[inline]
 pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -15,7 +15,7 @@ pub fn two_difference(a: f64, b: f64) -> (f64, f64) {
     two_sum(a, -b)
 }
 
-/// The product of `a` and `b`, rounded, and its rounding error (TwoProduct): `a * b = product + error` exactly, unless one of the two over- or underflows.
+/// The product of `a` and `b`, rounded, and its rounding error (two-product): `a * b = product + error` exactly, unless one of the two over- or underflows.
 #[inline]
 pub fn two_product(a: f64, b: f64) -> (f64, f64) {
     let product = a * b;
