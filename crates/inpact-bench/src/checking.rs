@@ -48,8 +48,8 @@ struct Used {
     kilobytes: f64,
 }
 
-/// Measures a program on decks of so many interactions with so many rows a table, the best of so many runs each, and gives
-/// the page of it.
+/// Measures a program on decks of this many interactions and rows per table, the best of this many runs each, and returns
+/// the page.
 ///
 /// # Errors
 /// Those of writing decks to the folder for temporary files; a program, or GNU time, that cannot be run.

@@ -27,7 +27,7 @@ struct Measured {
     memory: Option<(u64, u64)>,
 }
 
-/// Measures the program on decks of 1 kB, 1 MB and 100 MB, with so many rounds each, and gives a page of Markdown.
+/// Measures the program on decks of 1 kB, 1 MB and 100 MB, with this many rounds each, and returns a page of Markdown.
 ///
 /// # Errors
 /// A program that cannot be started, or that ends too early.
@@ -102,7 +102,7 @@ fn measure(program: &Path, text: &str, rounds: usize) -> io::Result<Measured> {
     ];
     for _ in 0..rounds {
         for (index, line) in [(0, table + 1), (1, middle)] {
-            // A blank at the end of the line, and away again.
+            // Adds and removes a blank at the end of the line.
             let end = lines[line].len();
             for (from, to, new) in [(end, end, " "), (end, end + 1, "")] {
                 version += 1;
@@ -131,7 +131,7 @@ fn measure(program: &Path, text: &str, rounds: usize) -> io::Result<Measured> {
     Ok(Measured { bytes: text.len(), lines: lines.len(), opened, times, memory })
 }
 
-/// An editor as far as a measurement needs one.
+/// A minimal editor for measurements.
 struct Editor {
     server: Child,
     input: ChildStdin,
@@ -214,7 +214,7 @@ impl Editor {
 
 impl Drop for Editor {
     fn drop(&mut self) {
-        // Nobody is told when it has ended already.
+        // It may have ended already.
         let _ = self.server.kill();
         let _ = self.server.wait();
     }

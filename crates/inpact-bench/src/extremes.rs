@@ -14,7 +14,7 @@ mod random_tables;
 mod run;
 mod shapes;
 
-/// The page, Markdown with one sentence a line.
+/// The page, Markdown with one sentence per line.
 pub fn page() -> String {
     let sections = [matrix::section(), random_tables::section(), shapes::section(), flows::section()];
     format!("{HEAD}\n{}", sections.join("\n"))

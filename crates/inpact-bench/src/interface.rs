@@ -18,7 +18,7 @@ const MOST_GROUPS: usize = 10;
 
 /// A contact interface whose two conductance tables share their temperatures.
 ///
-/// Knots are whole numbers of nanometres and kilopascals, scaled in one rounding, so that the text of
+/// Knots are integers in nanometres and kilopascals, scaled with one rounding, so that the text of
 /// a deck and the text of a node table read as the same f64.
 #[derive(Debug, Clone)]
 pub struct Interface {
@@ -43,7 +43,7 @@ pub struct Interface {
     pub cutoff_gap_fill: f64,
     /// Coefficient of friction.
     pub friction: f64,
-    /// Share of the heat that goes to the slave surface.
+    /// Fraction of the heat that goes to the slave surface.
     pub slave_weight: f64,
 }
 

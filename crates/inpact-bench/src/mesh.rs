@@ -16,7 +16,7 @@ use std::path::Path;
 use std::process::Command;
 use std::time::Instant;
 
-/// How the surfaces of the deck are defined.
+/// Definitions of the surfaces of the deck.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Surfaces {
     /// By the names of faces.
@@ -30,11 +30,11 @@ pub enum Surfaces {
 pub struct Measured {
     /// Bytes of the deck.
     pub bytes: u64,
-    /// Seconds to cut the deck into blocks.
+    /// Seconds to scan the deck into blocks.
     pub scan: f64,
-    /// Seconds to read surfaces, elements and nodes behind it.
+    /// Seconds to read surfaces, elements and nodes after that.
     pub mesh: f64,
-    /// Seconds to find areas and clearances.
+    /// Seconds to compute areas and clearances.
     pub contact: f64,
     /// Faces of all surfaces.
     pub faces: usize,
@@ -42,7 +42,7 @@ pub struct Measured {
     pub peak: f64,
 }
 
-/// Writes the nodes and elements of a cube with `side` nodes along each edge and of the layer on it; gives how many bytes they are.
+/// Writes the nodes and elements of a cube with `side` nodes along each edge and of the layer on it; returns their number of bytes.
 ///
 /// # Errors
 /// Those of writing.
@@ -93,7 +93,7 @@ pub fn write_mesh(side: u32, out: impl Write) -> io::Result<u64> {
     Ok(out.bytes)
 }
 
-/// The rows behind the mesh: surfaces, an interaction and the pair.
+/// The rows after the mesh: surfaces, an interaction and the pair.
 pub fn tail(surfaces: Surfaces) -> String {
     let (lower, upper) = match surfaces {
         Surfaces::Named => ("UPMOST, S2", "LAYER, S1"),
@@ -203,7 +203,7 @@ pub fn page(sides: &[u32]) -> io::Result<String> {
     Ok(page)
 }
 
-/// A number; a dash for one that comes of a time too short to be counted.
+/// A number; a dash for one from a time too short to be measured.
 fn shown(number: f64, digits: usize) -> String {
     if number.is_finite() { format!("{number:.digits$}") } else { "–".to_owned() }
 }
@@ -237,7 +237,7 @@ fn measure_all(program: &Path, path: &Path, sides: &[u32]) -> io::Result<Vec<(u3
     Ok(measured)
 }
 
-/// Measures the time that the threads of this process have a processor, so that work beside it does not count; the time that passes where the system does not tell.
+/// Measures the CPU time of the threads of this process, which excludes other load; elapsed time where the system does not give it.
 pub(crate) struct Timer {
     start: Instant,
     busy: Option<f64>,
@@ -253,7 +253,7 @@ impl Timer {
         busy.unwrap_or_else(|| self.start.elapsed().as_secs_f64())
     }
 
-    /// The seconds on a processor so far, as Linux counts them.
+    /// The CPU time so far, in seconds, on Linux.
     fn busy() -> Option<f64> {
         let of_thread = |thread: io::Result<std::fs::DirEntry>| {
             let counts = std::fs::read_to_string(thread.ok()?.path().join("schedstat")).ok()?;
@@ -264,7 +264,7 @@ impl Timer {
     }
 }
 
-/// Counts what it passes on.
+/// Counts the bytes it passes on.
 struct Counting<W> {
     out: W,
     bytes: u64,

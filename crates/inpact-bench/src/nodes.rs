@@ -26,7 +26,7 @@ pub struct NodesRequest {
     pub seed: u64,
 }
 
-/// Writes the node table for `interfaces`, one at least, and gives its size in bytes.
+/// Writes the node table for `interfaces`, one at least, and returns its size in bytes.
 ///
 /// # Errors
 /// Those of the writer.
@@ -58,8 +58,8 @@ pub fn write(request: &NodesRequest, interfaces: &[Interface], out: impl Write) 
 
 /// The state of a node in one row, as the end of the row's text.
 ///
-/// A node begins open, closes, and opens again as `progress` goes from 0 to 1; how far is the node's
-/// own, so that a node without a history may be anywhere.
+/// A node begins open, closes, and opens again as `progress` goes from 0 to 1; how far depends on the
+/// node, so that a node without a history may be anywhere.
 fn state(interface: &Interface, seed: u64, node: u64, row: u64, progress: f64) -> String {
     let mut of_node = Random::of_item(seed.wrapping_add(1), node);
     let mut of_row = Random::of_item(seed.wrapping_add(2), row);
@@ -83,15 +83,15 @@ fn state(interface: &Interface, seed: u64, node: u64, row: u64, progress: f64) -
     format!("{clearance},{pressure},{temp_s},{temp_m},{epot_s},{epot_m},{por_s},{por_m},{area},0.001,1e-12,3e-12")
 }
 
-/// The point at `reach` of the way to the last knot, or the knot at or below it where it `snap`s;
-/// 0 where the way leads elsewhere.
+/// The point at the fraction `reach` of the last knot, or the knot at or below it where it `snap`s;
+/// 0 elsewhere.
 fn along(knots: &[f64], reach: f64, snap: bool, per_unit: f64) -> f64 {
     let last = knots[knots.len() - 1];
     let point = quotient(last * reach.max(0.0), per_unit);
     if snap { knots.iter().copied().rfind(|knot| *knot <= point).unwrap_or(0.0) } else { point }
 }
 
-/// The value as a whole number over `per_unit`: it prints in few digits.
+/// The value as an integer over `per_unit`, which prints in few digits.
 fn quotient(value: f64, per_unit: f64) -> f64 {
     (value * per_unit).round() / per_unit
 }

@@ -29,7 +29,7 @@ impl Plate {
     /// The smallest plate.
     pub const UNIT: Self = Self { along_x: 1, along_y: 1, layers: 1 };
 
-    /// The plate whose part takes as much of `bytes` as whole elements can, or the smallest one where
+    /// The largest plate whose part fits into `bytes`, or the smallest one where
     /// nothing fits.
     pub fn fitting(bytes: u64) -> Self {
         // An element and a node of its own take about 140 bytes; a plate is about a quarter as thick as wide.

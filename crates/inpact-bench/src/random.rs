@@ -18,7 +18,7 @@ impl Random {
         Self { state: scramble(seed).max(1) }
     }
 
-    /// The stream of one item, `index`, of a family of streams, `seed`: an item can be drawn without its
+    /// The stream number `index` of the family `seed`: an item can be generated without its
     /// predecessors.
     pub fn of_item(seed: u64, index: u64) -> Self {
         Self::new(scramble(seed) ^ index.wrapping_mul(0xA24B_AED4_963E_E407))
@@ -42,7 +42,7 @@ impl Random {
         low + (high - low) * self.unit()
     }
 
-    /// A whole number in `low..=high`.
+    /// An integer in `low..=high`.
     pub fn whole(&mut self, low: u64, high: u64) -> u64 {
         low + self.bits() % (high - low + 1)
     }

@@ -10,7 +10,7 @@ pub struct Counted<W> {
 }
 
 impl<W: Write> Counted<W> {
-    /// Counts what goes to `inner` from now on.
+    /// Counts the bytes written to `inner`.
     pub fn new(inner: W) -> Self {
         Self { inner, bytes: 0 }
     }
@@ -33,7 +33,7 @@ impl<W: Write> Write for Counted<W> {
     }
 }
 
-/// The bytes that `write` would write, found by writing them nowhere.
+/// The number of bytes that `write` would write.
 ///
 /// # Errors
 /// Those of `write`.

@@ -12,7 +12,7 @@ pub(super) type Value<'a> = Box<dyn Fn(&[f64]) -> f64 + 'a>;
 pub(super) struct Evaluator {
     /// The mode and the kernel.
     pub(super) name: &'static str,
-    /// Makes it ready for a table, or says why it does not serve that table.
+    /// Prepares it for a table, or returns why it does not support that table.
     pub(super) of: for<'a> fn(&'a PiecewiseTable) -> Result<Ready<'a>, String>,
 }
 
@@ -42,7 +42,7 @@ fn reference(table: &PiecewiseTable, point: &[f64]) -> f64 {
     table.reference_value_at(first, others)
 }
 
-/// The kernel with each set of instructions of this machine; where they do not agree to the bit, the value is NaN, which no judge accepts.
+/// The kernel with each instruction set of this machine; where they do not agree bitwise, the value is NaN, which is never accepted.
 fn of_every_set(table: &PiecewiseTable) -> Ready<'_> {
     /// A whole vector of the widest set, and a part of one.
     const ROWS: usize = 11;
@@ -65,7 +65,7 @@ fn of_every_set(table: &PiecewiseTable) -> Ready<'_> {
     Ready { value: Box::new(value), bound: full_bound(table) }
 }
 
-/// The grid whose lines meet all abscissae.
+/// The grid whose lines contain all abscissae.
 fn grid(table: &PiecewiseTable) -> Result<Ready<'_>, String> {
     if table.axes().iter().filter(|axis| axis.matters()).count() < 2 {
         return Err(Refusal::OneAxis.to_string());

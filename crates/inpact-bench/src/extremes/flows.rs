@@ -144,7 +144,7 @@ struct History {
 }
 
 impl History {
-    /// Integrates so many steps with Δφ from −`shift` to 1 − `shift`.
+    /// Integrates this many steps with Δφ from −`shift` to 1 − `shift`.
     fn integrate(steps: usize, shift: f64) -> Self {
         let (mut plain, mut sum) = (0.0, BigInt::zero());
         let mut of_block = 0;
@@ -169,7 +169,7 @@ impl History {
 /// The conductance of the histories.
 const CONDUCTANCE: f64 = 0.1;
 
-/// Histories up to so many steps are evaluated as rows of a node table.
+/// Histories up to this number of steps are evaluated as rows of a node table.
 const MOST_ROWS_OF_A_TABLE: usize = 100_000;
 
 /// Rows of a batch; as many exact products of 105 bits have a sum below 2¹²⁷.

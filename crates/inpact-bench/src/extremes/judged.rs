@@ -22,18 +22,18 @@ pub(super) struct Errors {
     pub(super) outside: usize,
 }
 
-/// Judges a value; `wanted` is finite.
+/// Compares a value; `wanted` is finite.
 pub(super) fn judged(value: f64, wanted: &BigRational, bound: &ErrorBound) -> Judged {
     if !value.is_finite() {
         return Judged { ulps: f64::INFINITY, is_within_bound: false };
     }
-    // A bound that has overflowed promises nothing.
+    // A bound that has overflowed guarantees nothing.
     let is_within_bound = bound.absolute == f64::INFINITY || (exact(value) - wanted).abs() <= exact(bound.absolute);
     Judged { ulps: ulps_from(value, wanted), is_within_bound }
 }
 
 impl Errors {
-    /// Takes one more.
+    /// Adds one.
     pub(super) fn add(&mut self, judged: Judged) {
         self.largest = self.largest.max(judged.ulps);
         self.outside += usize::from(!judged.is_within_bound);

@@ -17,7 +17,7 @@ fn line<'a>(cells: impl Iterator<Item = &'a str>) -> String {
     format!("| {} |\n", cells.join(" | "))
 }
 
-/// A number as results have it: the shortest form that reads back to the same f64.
+/// A number as in results: the shortest form that reads back to the same f64.
 pub(super) fn number(value: f64) -> String {
     let mut text = Vec::new();
     push_number(&mut text, value);
@@ -35,7 +35,7 @@ pub(super) fn ulps(error: f64) -> String {
     }
 }
 
-/// A count in words of threes: `10 000 000`.
+/// A count with digit groups: `10 000 000`.
 pub(super) fn count(number: usize) -> String {
     let digits = number.to_string();
     let groups = digits.as_bytes().rchunks(3).rev();

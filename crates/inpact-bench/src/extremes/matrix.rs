@@ -259,7 +259,7 @@ impl Case {
         reasons.join("; ")
     }
 
-    /// The column of the rows that it stands in, where it is a variable of the table.
+    /// Its column in the rows, where it is a variable of the table.
     fn axis(&self) -> Option<usize> {
         match self.quantity {
             Quantity::Clearance | Quantity::Pressure => Some(1),

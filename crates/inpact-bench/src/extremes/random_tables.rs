@@ -18,7 +18,7 @@ The line of every instruction set evaluates each query with all sets of the mach
 An infinite error within the bound is one of more than 1.8e308 ulp: of a value near zero between very large ones, in a form whose error is a part of the largest.
 ";
 
-/// Queries of a table of so many axes.
+/// Queries of a table of this many axes.
 const QUERIES: [(usize, usize); 3] = [(1, 6_000), (2, 2_000), (3, 600)];
 
 /// The section of the page.
@@ -56,7 +56,7 @@ pub(super) fn section() -> String {
 /// The measurements of one evaluator.
 #[derive(Clone, Default)]
 struct Measured {
-    /// Tables that were tried, and those it could be made for.
+    /// Tables tried, and those supported.
     tables: usize,
     made: usize,
     queries: usize,
@@ -65,7 +65,7 @@ struct Measured {
     rows_met: usize,
 }
 
-/// For each evaluator the largest error over at least so many queries; all answer the same ones.
+/// For each evaluator the largest error over at least this many queries, the same for all.
 fn largest_errors(axes: usize, queries: usize, range: Range) -> Vec<Measured> {
     let mut random = Random::new(0xe7_7e3e + axes as u64);
     let mut measured = vec![Measured::default(); EVALUATORS.len()];

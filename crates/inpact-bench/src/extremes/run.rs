@@ -14,7 +14,7 @@ pub(super) struct Scene {
     pub(super) model: Model,
     pub(super) plan: Plan,
     choices: Choices,
-    /// The findings about the node table that are no errors, as `D003 non-finite`.
+    /// The findings about the node table that are not errors, such as `D003 non-finite`.
     pub(super) warnings: Vec<String>,
 }
 
@@ -26,7 +26,7 @@ pub(super) struct Results {
     pub(super) status: Option<Status>,
     /// The counts of the only interaction.
     pub(super) tally: InteractionTally,
-    /// The findings about the node table that are no errors.
+    /// The findings about the node table that are not errors.
     pub(super) warnings: Vec<String>,
 }
 

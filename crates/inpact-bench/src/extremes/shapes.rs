@@ -13,13 +13,13 @@ Each table has one axis; every query is judged by the exact value of its segment
 *At* is at the abscissae themselves, *beside* one ulp below and above them, *between* at random points of random segments.
 ";
 
-/// Points (x, y) of a table of one axis, and what it is called.
+/// Points (x, y) of a table of one axis, and its name.
 struct Shape {
     name: &'static str,
     points: Vec<(f64, f64)>,
 }
 
-/// The number of knots of a table evaluated at and beside, and of segments between.
+/// The number of knots of a table evaluated at and next to, and of segments between.
 const ASKED: usize = 1_500;
 
 /// The section of the page.
@@ -88,7 +88,7 @@ fn shapes() -> Vec<Shape> {
     ]
 }
 
-/// Queries at, beside and between the knots.
+/// Queries at, next to and between the knots.
 fn queries(points: &[(f64, f64)]) -> [Vec<f64>; 3] {
     let mut random = Random::new(0x9e51);
     let last = points.len() - 1;

@@ -19,9 +19,9 @@ pub struct Worst {
     pub flow: f64,
     /// The number of networks.
     pub networks: u32,
-    /// The number of them refused, as a value or a flow is beyond the range of f64; one that is refused without that is an infinite error.
+    /// The number of them rejected because a value or a flow is beyond the range of f64; one rejected otherwise is an infinite error.
     pub refused: u32,
-    /// The most corrections that one of them took.
+    /// The maximum number of corrections.
     pub solves: usize,
 }
 
@@ -164,7 +164,7 @@ fn difference(a: &LinearSolution, b: &LinearSolution) -> (f64, f64) {
     (of(&a.values, &b.values), of(&a.flows, &b.flows))
 }
 
-/// The largest relative difference of some numbers from those they should be.
+/// The largest relative difference of some numbers from the expected ones.
 fn largest_difference(numbers: impl Iterator<Item = f64>, exact: &[DoubleDouble]) -> f64 {
     let exact = exact.iter().map(|number| number.to_f64());
     let relative = |(a, b): (f64, f64)| if a == b { 0.0 } else { (a - b).abs() / a.abs().max(b.abs()) };

@@ -6,7 +6,7 @@ use inpact_network::linear::{LinearNetwork, Link};
 use num_bigint::{BigInt, Sign};
 use num_traits::{Signed, ToPrimitive, Zero};
 
-/// Everything there is to know of a network, without rounding.
+/// The exact solution of a network.
 #[derive(Debug)]
 pub struct Exact {
     /// The value of each node.
@@ -17,7 +17,7 @@ pub struct Exact {
     pub flows: Vec<Option<Fraction>>,
 }
 
-/// A fraction that nobody has reduced: to look for common factors of numbers with 100,000 digits would take longer than to solve the network.
+/// An unreduced fraction: finding common factors of numbers with 100,000 digits would take longer than solving the network.
 #[derive(Debug)]
 pub struct Fraction {
     top: BigInt,
@@ -25,7 +25,7 @@ pub struct Fraction {
     bottom: BigInt,
 }
 
-/// Solves a network by elimination without fractions (Bareiss); nodes joined by infinite conductances are one.
+/// Solves a network by fraction-free elimination (Bareiss); nodes joined by infinite conductances are merged.
 ///
 /// # Panics
 /// For a network without one solution.
@@ -91,7 +91,7 @@ pub fn solve(network: &LinearNetwork) -> Exact {
     }
 }
 
-/// The number of bits after the point that make everything in a network whole.
+/// The number of fractional bits that make everything in a network an integer.
 struct Scale {
     conductances: u32,
     values: u32,
@@ -109,7 +109,7 @@ impl Scale {
     }
 }
 
-/// A finite f64 as a whole number times a power of two.
+/// A finite f64 as an integer times a power of two.
 fn parts(value: f64) -> (i64, i32) {
     let bits = value.to_bits();
     let exponent = i32::try_from(bits >> 52 & 0x7ff).unwrap_or(0);
@@ -127,13 +127,13 @@ fn bits_after_point(value: f64) -> u32 {
     u32::try_from(-(exponent + zeros)).unwrap_or(0)
 }
 
-/// A number times two to a power that makes it whole.
+/// A number times a power of two that makes it an integer.
 fn whole(value: f64, bits: u32) -> BigInt {
     let (whole, exponent) = parts(value);
     shifted(BigInt::from(whole), i64::from(exponent) + i64::from(bits))
 }
 
-/// A number times a power of two; what is cut off is zero.
+/// A number times a power of two; the bits shifted out are zero.
 fn shifted(number: BigInt, by: i64) -> BigInt {
     if by < 0 { number >> by.unsigned_abs() } else { number << by.unsigned_abs() }
 }
@@ -155,7 +155,7 @@ fn clusters(network: &LinearNetwork) -> Vec<usize> {
     }
 }
 
-/// The solution of symmetric rows with the right side last, as tops of fractions and their common bottom.
+/// The solution of symmetric rows with the right-hand side last, as numerators and their common denominator.
 ///
 /// Every division is exact; the pivots are the principal minors of a positive definite matrix, so none is zero.
 fn eliminate(mut rows: Vec<Vec<BigInt>>) -> (Vec<BigInt>, BigInt) {
@@ -189,11 +189,11 @@ fn eliminate(mut rows: Vec<Vec<BigInt>>) -> (Vec<BigInt>, BigInt) {
     (tops, before)
 }
 
-/// Below two to this power an f64 runs out of digits: what is smaller may be off by as much.
+/// Below two to this power an f64 loses digits: smaller numbers may have an error of that size.
 const LEAST: i64 = -960;
 
 impl Fraction {
-    /// Whether it is not zero, but so small that an f64 has not all its digits, or none.
+    /// Whether it is not zero, but subnormal or below the range of f64.
     pub fn is_below_range(&self) -> bool {
         !self.top.is_zero() && self.top.magnitude() <= shifted(self.bottom.clone(), LEAST).magnitude()
     }
@@ -216,7 +216,7 @@ impl Fraction {
     }
 }
 
-/// The relative error of a value; zero where both are below what an f64 has digits for.
+/// The relative error of a value; zero where both are below the normal range of f64.
 pub fn relative_error(value: f64, exact: &Fraction) -> f64 {
     if !value.is_finite() {
         return f64::INFINITY;
@@ -224,7 +224,7 @@ pub fn relative_error(value: f64, exact: &Fraction) -> f64 {
     let Fraction { top, bottom } = exact;
     let (whole, exponent) = parts(value);
     let product = bottom * whole;
-    // Whichever of the two has bits after the point makes the other longer.
+    // Aligns the fractional bits of the two.
     let (product, top) = if exponent < 0 {
         (product, top << exponent.unsigned_abs())
     } else {

@@ -7,9 +7,9 @@ use std::io::{self, Write};
 /// A grid of unit conductances, jittered from 0.5 to 2, with an interface plane halfway along its first direction and held values at both ends.
 #[derive(Debug, Clone, Copy)]
 pub struct Grid {
-    /// Nodes along each direction; one in the third is a grid in the plane.
+    /// Nodes along each direction; 1 in the third is a plane grid.
     pub size: [u32; 3],
-    /// By what the conductances of the interface are larger; zero and infinite are meant as such.
+    /// The factor of the conductances of the interface; zero and infinity are allowed.
     pub contrast: f64,
 }
 
@@ -54,7 +54,7 @@ impl Grid {
     }
 }
 
-/// The assembled matrix of a network's free nodes, plain: what other solvers are given.
+/// The plainly assembled matrix of a network's free nodes, for other solvers.
 ///
 /// The held nodes of the network are its last.
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Col, Side};
 use inpact_network::linear::LinearNetwork;
 
-/// The values of the free nodes; `None` where a pivot is not above zero.
+/// The values of the free nodes; `None` where a pivot is not positive.
 pub fn values(network: &LinearNetwork) -> Option<Vec<f64>> {
     let Assembled { diagonal, below, right } = Assembled::of(network);
     let of_diagonal = diagonal.iter().enumerate().map(|(node, &value)| Triplet::new(node, node, value));

@@ -19,11 +19,11 @@ pub struct Kind {
 pub enum Sources {
     /// Nothing.
     None,
-    /// At a third of the nodes up to what one of its conductances leads away at a difference of 100.
+    /// At a third of the nodes, up to the flow through one of its conductances at a difference of 100.
     Some,
 }
 
-/// A network that is told by its kind and a seed: a tree with as many links more, one in twelve of them infinite and one in twelve without conductance.
+/// A random network of a kind and a seed: a tree with as many further links, one in twelve of them infinite and one in twelve without conductance.
 pub fn network(kind: Kind, seed: u64) -> LinearNetwork {
     let Kind { nodes, decades, sources } = kind;
     let mut random = Random::of_item(seed, u64::from(nodes));
@@ -40,7 +40,7 @@ pub fn network(kind: Kind, seed: u64) -> LinearNetwork {
         let [a, b] = [(); 2].map(|()| below(&mut random, nodes));
         let is_held = |node: u32| network.held[node as usize].is_some();
         let conductance = match random.whole(0, 11) {
-            // Both held nodes must not become one.
+            // The two held nodes must not be merged.
             0 if !is_held(a) && !is_held(b) => f64::INFINITY,
             1 => 0.0,
             _ => conductance(&mut random),

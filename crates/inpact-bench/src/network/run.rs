@@ -13,7 +13,7 @@ fn clock() -> Duration {
     START.elapsed()
 }
 
-/// Solves a grid some times over, each time from nothing, and describes the fastest.
+/// Solves a grid several times from scratch, and reports the fastest.
 ///
 /// # Errors
 /// A grid that is not solved.
