@@ -6,7 +6,7 @@
 //! - [`Lumped::isothermal`]: the conductances between terminals of one uniform temperature (or potential) each;
 //! - [`Lumped::even`]: the same where the flow of each terminal is uniformly distributed over its area;
 //! - [`Lumped::terminals`]: the conductance of each terminal to all others, both ways. By Dirichlet's principle no joint lets a body conduct more than the first;
-//!   by Thomson's none with a uniform flow lets it conduct less than the second. Their relative difference bounds the error of lumping.
+//!   by Thomson's none with a uniform flow lets it conduct less than the second. Their relative difference is a measure of the lumping error.
 //! - [`Lumped::capacities`]: ∫ ρ c φ dV of each terminal, φ being its own potential, so that they sum to the capacity of the bodies.
 //!
 //! ```
