@@ -8,7 +8,7 @@ use inpact_results::vtu::{Array, Cell, Grid, Space};
 use std::collections::HashMap;
 
 /// The slave surfaces of the pairs that have rows.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub struct SlaveFaces {
     nodes: Vec<NodeId>,
     /// The names of the rows of the points.
@@ -28,17 +28,7 @@ pub struct SlaveFaces {
 
 impl SlaveFaces {
     pub(crate) fn of(mesh: &Mesh, pairs: &[Pair<'_>]) -> Self {
-        let mut faces = Self {
-            nodes: Vec::new(),
-            names: Vec::new(),
-            of_mesh: Vec::new(),
-            points: Vec::new(),
-            cells: Vec::new(),
-            labels: Vec::new(),
-            pairs: Vec::new(),
-            elements: Vec::new(),
-            pairs_of_cells: Vec::new(),
-        };
+        let mut faces = Self::default();
         for (number, pair) in (1..).zip(pairs) {
             let first = faces.nodes.len();
             let mut places: HashMap<NodeId, usize> = HashMap::new();
@@ -83,13 +73,8 @@ impl SlaveFaces {
 
     /// The rows of a state in order: the position of the pair among those of the mesh, the node, and the name of the row.
     pub fn rows(&self) -> impl Iterator<Item = (usize, NodeId, &str)> {
-        let names = self.names.iter().map(String::as_str);
-        self.of_mesh
-            .iter()
-            .copied()
-            .zip(self.nodes.iter().copied())
-            .zip(names)
-            .map(|((pair, node), name)| (pair, node, name))
+        let of_nodes = self.of_mesh.iter().zip(&self.nodes);
+        of_nodes.zip(&self.names).map(|((&pair, &node), name)| (pair, node, name.as_str()))
     }
 
     /// The surfaces in a state, displaced, with columns as point data.

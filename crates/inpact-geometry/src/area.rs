@@ -55,20 +55,7 @@ pub enum Extent<'a> {
 ///
 /// The extent does not suit the faces, there is not one thickness per face, or a radius is negative.
 pub fn node_areas(placed: &Placed<'_>, shares: Shares, extent: Extent<'_>) -> Result<Vec<f64>, Error> {
-    suits(placed, extent)?;
-    let surface = placed.surface();
-    let mut areas = vec![0.0; surface.nodes().len()];
-    for id in surface.faces() {
-        let parts = face_parts(placed, id, extent);
-        let face = surface.face(id);
-        let of_nodes = parts.shares(face, shares);
-        for (node, area) in face.nodes.iter().zip(of_nodes) {
-            if let Some(i) = surface.position_of(*node) {
-                areas[i] += area;
-            }
-        }
-    }
-    Ok(areas)
+    sum_over_faces(placed, extent, |parts, face| parts.shares(face, shares))
 }
 
 /// The area (L²) of each face.
@@ -89,12 +76,21 @@ pub fn face_areas(placed: &Placed<'_>, extent: Extent<'_>) -> Result<Vec<f64>, E
 ///
 /// The faces are lines.
 pub fn shape_function_areas(placed: &Placed<'_>) -> Result<Vec<f64>, Error> {
-    suits(placed, Extent::Spatial)?;
+    sum_over_faces(placed, Extent::Spatial, |parts, _| parts.functions)
+}
+
+/// The sums over the faces of what each gives its nodes, in the order of [`Surface::nodes`](crate::Surface::nodes).
+fn sum_over_faces(
+    placed: &Placed<'_>,
+    extent: Extent<'_>,
+    of_nodes: impl Fn(&Parts, Face<'_>) -> [f64; MAX_NODES],
+) -> Result<Vec<f64>, Error> {
+    suits(placed, extent)?;
     let surface = placed.surface();
     let mut areas = vec![0.0; surface.nodes().len()];
     for id in surface.faces() {
-        let parts = face_parts(placed, id, Extent::Spatial);
-        for (node, area) in surface.face(id).nodes.iter().zip(parts.functions) {
+        let face = surface.face(id);
+        for (node, area) in face.nodes.iter().zip(of_nodes(&face_parts(placed, id, extent), face)) {
             if let Some(i) = surface.position_of(*node) {
                 areas[i] += area;
             }

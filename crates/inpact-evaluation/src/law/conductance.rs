@@ -12,6 +12,7 @@
 //! The conductance jumps where the two branches meet, where a pressure table alone opens, and at the last clearance under [`crate::table::Tail::Zero`].
 
 pub(crate) mod columns;
+pub(crate) mod pair;
 
 use super::contact::{Clearance, ContactPressure, ContactState};
 use crate::evaluator::FoundValue;

@@ -3,12 +3,14 @@
 //! An interaction of a deck is interpreted by the same code as for a plan; here nothing is folded, as the points are not yet known.
 
 use crate::law::conductance::ConductanceTables;
-use crate::law::friction::plan::tells_of_friction;
+use crate::law::electrical::plan::LAW as ELECTRICAL_LAW;
+use crate::law::friction::plan::{given_slip_rate, tells_of_friction};
 use crate::law::heat::HeatGeneration;
+use crate::law::pore::plan::LAW as PORE_LAW;
 use crate::law::pore::{Cutoffs, Permeability, PoreLaw};
 use crate::law::radiation::RadiationLaw;
 use crate::law::thermal::ThermalConductance;
-use crate::law::thermal::tables::{ConductanceRows, RadiationFault, ThermalTables};
+use crate::law::thermal::tables::{RadiationFault, ThermalTables};
 use crate::law::user::plan::user_names;
 use crate::law::user::{UserLaw, UserNames};
 use crate::plan::{Choices, InteractionTables, LeftOut, Reason, generation_of};
@@ -77,10 +79,7 @@ impl InterfaceLaws {
             thermal: thermal(&thermal_tables, &mut left_out),
             radiation: radiation(&thermal_tables, choices.dialect, &mut left_out),
             friction: tells_of_friction(interaction).then(|| FrictionSource {
-                slip_rate: interaction
-                    .gap_heat_generation
-                    .as_deref()
-                    .and_then(inpact_parser::model::HeatGeneration::given_slip_rate),
+                slip_rate: given_slip_rate(interaction),
                 takes_magnitudes: choices.dialect == Dialect::Calculix,
             }),
             pore: pore(interaction, &tables, choices, &mut left_out),
@@ -100,7 +99,7 @@ fn electrical(
 ) -> Option<ElectricalSource> {
     let option = interaction.gap_electrical_conductance.as_ref()?;
     let mut refuse = |reason| {
-        left_out.push((FlowOf::Charge, LeftOut::law("electrical law", reason)));
+        left_out.push((FlowOf::Charge, LeftOut::law(ELECTRICAL_LAW, reason)));
         None
     };
     if option.user.is_some() {
@@ -112,30 +111,14 @@ fn electrical(
             None => refuse(Reason::NeedsUserSubroutine("GAPELECTR")),
         };
     }
-    if let Some(error) = tables.electrical_error() {
-        return refuse(Reason::BrokenTable(error));
-    }
-    match tables.electrical_tables() {
-        Some(tables) => Some(ElectricalSource::Tables(Box::new(tables))),
-        None => refuse(Reason::NoRows(OptionKind::GapElectricalConductance.keyword())),
+    match tables.electrical.fault(OptionKind::GapElectricalConductance.keyword()) {
+        Some(reason) => refuse(reason),
+        None => tables.electrical.conductance().map(|tables| ElectricalSource::Tables(Box::new(tables))),
     }
 }
 
 fn thermal(tables: &ThermalTables, left_out: &mut Vec<(FlowOf, LeftOut)>) -> Option<ThermalConductance> {
-    let found = tables.thermal_conductance();
-    let reason = match tables.conductance.as_ref()? {
-        ConductanceRows::User => Reason::NeedsUserSubroutine("GAPCON"),
-        ConductanceRows::Nothing => Reason::NoRows(OptionKind::GapConductance.keyword()),
-        ConductanceRows::Calculix(Err(error)) => Reason::BrokenCurves(*error),
-        ConductanceRows::Calculix(Ok(_)) => return found,
-        ConductanceRows::Tables { clearance, pressure } => {
-            let mut errors = [clearance, pressure].into_iter().flatten().filter_map(|table| table.as_ref().err());
-            match errors.next() {
-                Some(error) => Reason::BrokenTable(*error),
-                None => return found,
-            }
-        }
-    };
+    let Some(reason) = tables.conductance.as_ref()?.fault() else { return tables.thermal_conductance() };
     left_out.push((FlowOf::Heat, LeftOut::law("heat conduction", reason)));
     None
 }
@@ -156,17 +139,13 @@ fn pore(
     choices: &Choices,
     left_out: &mut Vec<(FlowOf, LeftOut)>,
 ) -> Option<PoreLaw> {
-    let option = interaction.contact_permeability.as_ref();
     if let Some(error) = tables.permeability_error() {
-        left_out.push((FlowOf::PoreFluid, LeftOut::law("pore fluid law", Reason::BrokenTable(error))));
+        left_out.push((FlowOf::PoreFluid, LeftOut::law(PORE_LAW, Reason::BrokenTable(error))));
         return None;
     }
     Some(PoreLaw {
         permeability: tables.permeability().cloned().map_or(Permeability::Infinite, Permeability::Finite),
-        cutoffs: option.map_or_else(Cutoffs::default, |option| Cutoffs {
-            flow_across: option.cutoff_flow_across,
-            gap_fill: option.cutoff_gap_fill,
-        }),
+        cutoffs: Cutoffs::of(interaction),
         boundary: choices.cutoff_boundary,
     })
 }

@@ -23,7 +23,6 @@
 pub(crate) mod columns;
 pub(crate) mod conduction;
 pub(crate) mod plan;
-pub(crate) mod planned;
 pub(crate) mod tables;
 
 use super::calculix::CalculixConductance;

@@ -10,8 +10,8 @@ use super::survey::key_columns;
 use super::surveyed::Survey;
 use super::tables::{BuiltTables, InteractionTables};
 use super::{InteractionPlan, Plan};
-use crate::law::electrical::plan::plan_electrical;
-use crate::law::pore::plan::plan_pore;
+use crate::law::electrical::plan::{LAW as ELECTRICAL_LAW, plan_electrical};
+use crate::law::pore::plan::{LAW as PORE_LAW, plan_pore};
 use crate::law::thermal::plan::plan_thermal;
 use crate::law::thermal::tables::ThermalTables;
 use crate::nodes::{Column, Selection};
@@ -88,8 +88,10 @@ impl Planner<'_> {
         let mut outputs = BTreeSet::new();
         let mut dropped = Vec::new();
         let electrical = plan_electrical(self, tables, &mut outputs, &mut left_out, &mut notes, &mut dropped);
+        let electrical = left_out.planned(ELECTRICAL_LAW, electrical);
         let thermal = plan_thermal(self, &built.thermal, electrical.as_ref(), &mut outputs, &mut left_out, &mut notes);
         let pore = plan_pore(self, tables, &mut outputs, &mut left_out, &mut notes);
+        let pore = left_out.planned(PORE_LAW, pore);
         if !outputs.is_empty() {
             outputs.insert(Output::Status);
         }

@@ -2,15 +2,16 @@
 
 use super::choices::{Choices, Derivatives};
 use super::reason::{LeftOut, Missing, Reason};
-use super::source::{Presence, cell};
+use super::source::{Presence, Source};
 use super::surveyed::{InteractionSurvey, Survey};
-use super::table_plan::ContactColumns;
+use super::table_plan::{ContactColumns, History};
 use super::tables::matters;
 use crate::law::heat::HeatGeneration;
 use crate::nodes::Column;
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::model::{Interaction, Model};
+use std::collections::BTreeSet;
 
 /// Sources of the plan of one interaction.
 #[derive(Clone, Copy)]
@@ -37,6 +38,14 @@ impl LeftOuts {
     pub(crate) fn push_outputs(&mut self, outputs: &[Output], reason: Reason) {
         let names: Vec<String> = outputs.iter().map(|output| format!("`{output}`")).collect();
         self.0.push(LeftOut { what: names.join(", "), outputs: outputs.to_vec(), reason });
+    }
+
+    /// The plan of a law or of a part of it; where there is none, says why.
+    pub(crate) fn planned<T>(&mut self, what: &str, planned: Result<Option<T>, Reason>) -> Option<T> {
+        planned.unwrap_or_else(|reason| {
+            self.push(what, reason);
+            None
+        })
     }
 }
 
@@ -72,9 +81,69 @@ impl Planner<'_> {
         }
     }
 
-    /// `area`.
-    pub(crate) fn area(self) -> Result<Column, Missing> {
-        cell(Column::Area, |column| self.presence(column))
+    /// The source of a quantity that has a column of its own.
+    pub(crate) fn cell(self, column: Column) -> Result<Column, Missing> {
+        self.all_of([column]).map(|_| column)
+    }
+
+    /// Columns that must all have numbers.
+    pub(crate) fn all_of<const N: usize>(self, columns: [Column; N]) -> Result<[Column; N], Missing> {
+        let lacking: Vec<Column> = columns.into_iter().filter(|column| !self.presence(*column).has_numbers()).collect();
+        let is_absent = |column: &Column| self.presence(*column) == Presence::Absent;
+        match lacking.as_slice() {
+            [] => Ok(columns),
+            _ if lacking.iter().any(is_absent) => Err(Missing::absent(lacking)),
+            _ => Err(Missing::empty(lacking)),
+        }
+    }
+
+    /// The source of a quantity in one column or in those of the two sides; the single column takes precedence.
+    pub(crate) fn whole_or_sides(self, [whole, slave, master]: [Column; 3]) -> Result<Source<Column>, Missing> {
+        match (self.presence(whole), self.all_of([slave, master])) {
+            (Presence::Full, _) | (Presence::Partial, Err(_)) => Ok(Source::Cell(whole)),
+            (Presence::Partial, Ok(_)) => Ok(Source::CellOrSides(whole, slave, master)),
+            (Presence::Empty | Presence::Absent, Ok(_)) => Ok(Source::Sides(slave, master)),
+            (Presence::Empty | Presence::Absent, Err(missing)) => Err(missing.or(whole)),
+        }
+    }
+
+    /// Refuses rows that nothing tells the contact of.
+    pub(crate) fn check_contact(self) -> Result<(), Missing> {
+        if self.contact() == ContactColumns::default() { self.cell(Column::Clearance).map(drop) } else { Ok(()) }
+    }
+
+    /// Plans flows, each with its product with the area, its integral over time, and the integral's product; gives `area`, where it has numbers, and whether the rows of a node are a history.
+    pub(crate) fn flows(
+        self,
+        groups: &[[Output; 4]],
+        outputs: &mut BTreeSet<Output>,
+        left_out: &mut LeftOuts,
+    ) -> (Option<Column>, History) {
+        let (area, history) = (self.cell(Column::Area), self.history());
+        let mut without_area = Vec::new();
+        let mut without_history = Vec::new();
+        for &[flow, of_area, integral, integral_of_area] in groups {
+            outputs.insert(flow);
+            if area.is_ok() {
+                outputs.insert(of_area);
+            } else {
+                without_area.extend([of_area, integral_of_area]);
+            }
+            match (history.is_ok(), area.is_ok()) {
+                (true, true) => outputs.extend([integral, integral_of_area]),
+                (true, false) => outputs.extend([integral]),
+                (false, true) => without_history.extend([integral, integral_of_area]),
+                (false, false) => without_history.push(integral),
+            }
+        }
+        let found = (area.as_ref().ok().copied(), if history.is_ok() { History::ByTime } else { History::None });
+        if let Err(missing) = area {
+            left_out.push_outputs(&without_area, Reason::Missing(missing));
+        }
+        if let Err(missing) = history {
+            left_out.push_outputs(&without_history, Reason::Missing(missing));
+        }
+        found
     }
 
     /// Whether the rows of a node are a history: `node` and `time` are present.
@@ -85,7 +154,7 @@ impl Planner<'_> {
         if !columns.is_empty() {
             return Err(Missing::absent(columns));
         }
-        cell(Column::Time, |column| self.presence(column)).map(drop)
+        self.cell(Column::Time).map(drop)
     }
 
     /// Rejects a table whose first variable is needed by some row and present in none: a closed row needs no clearance.
@@ -95,7 +164,7 @@ impl Planner<'_> {
             return Ok(());
         }
         let column = if is_clearance { Column::Clearance } else { Column::Pressure };
-        cell(column, |column| self.presence(column)).map(drop)
+        self.cell(column).map(drop)
     }
 
     /// The reason why no row uses the table against clearance or pressure, one of `count` tables of a conductance.

@@ -104,6 +104,12 @@ pub enum Lack {
     Empty,
 }
 
+impl From<Missing> for Reason {
+    fn from(missing: Missing) -> Self {
+        Self::Missing(missing)
+    }
+}
+
 impl Missing {
     pub(crate) fn absent(columns: Vec<Column>) -> Self {
         Self { columns, or: None, how: Lack::Absent }

@@ -13,6 +13,8 @@ use super::{
     ContactColumns, CurrentHeat, ElectricalPlan, History, InteractionPlan, Plan, PorePlan, Rate, TablePlan, ThermalPlan,
 };
 use crate::law::contact::ContactState;
+use crate::law::electrical::plan::LAW as ELECTRICAL_LAW;
+use crate::law::pore::plan::LAW as PORE_LAW;
 use crate::nodes::{Findings, MISSING_COLUMN, Place};
 use crate::results::{Along, Output};
 use inpact_parser::model::Regime;
@@ -178,9 +180,9 @@ impl Plan {
             let by_name = left_out().find(|left| left.outputs.contains(output));
             let by_law = || {
                 let laws: &[&str] = match output {
-                    output if is_of_pore(output) => &["pore fluid law"],
+                    output if is_of_pore(output) => &[PORE_LAW],
                     output if is_of_thermal(output) => &["heat conduction", "heat radiation", "heat of friction"],
-                    _ => &["electrical law"],
+                    _ => &[ELECTRICAL_LAW],
                 };
                 left_out().find(|left| laws.contains(&left.what.as_str()))
             };

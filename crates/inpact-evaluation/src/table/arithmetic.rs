@@ -1,8 +1,7 @@
-//! The arithmetics in which a table is evaluated: f64, f64 that records the sides, f64 with a slope, double-double, and double-double with exponents that cannot overflow.
+//! The arithmetics in which a table is evaluated: f64, f64 with a slope, double-double, and double-double with exponents that cannot overflow.
 
 use std::cmp::Ordering;
 
-use super::Sides;
 use crate::numbers::{
     DoubleDouble, KernelSlope, Scaled, between, interpolate, is_ordinary, is_zero_or_ordinary, slope, two_difference,
     two_product, two_sum,
@@ -41,35 +40,12 @@ pub(super) trait Arithmetic {
     }
 }
 
-/// f64: 1.5 ulp along the innermost axis ([`interpolate`]), half an ulp along each other ([`between`]).
-pub(super) struct Plain;
-
-impl Arithmetic for Plain {
-    type Number = f64;
-
-    #[inline]
-    fn of_row(&self, value: f64) -> f64 {
-        value
-    }
-
-    #[inline]
-    fn between(&mut self, _: usize, x: f64, start: (f64, f64), end: (f64, f64)) -> f64 {
-        between(x, start, end)
-    }
-
-    #[inline]
-    fn between_rows(&mut self, _: usize, x: f64, start: (f64, f64), end: (f64, f64), slope: KernelSlope) -> f64 {
-        interpolate(x, start, end, slope)
-    }
+/// f64: 1.5 ulp along the innermost axis ([`interpolate`]), half an ulp along each other ([`between`]); `outside` hears of what [`Arithmetic::outside`] does.
+pub(super) struct Plain<F: FnMut(usize, Ordering)> {
+    pub(super) outside: F,
 }
 
-/// [`Plain`], and on which sides of the contributing groups the point lies.
-#[derive(Default)]
-pub(super) struct NotingSides {
-    pub(super) sides: Sides,
-}
-
-impl Arithmetic for NotingSides {
+impl<F: FnMut(usize, Ordering)> Arithmetic for Plain<F> {
     type Number = f64;
 
     #[inline]
@@ -87,11 +63,9 @@ impl Arithmetic for NotingSides {
         interpolate(x, start, end, slope)
     }
 
+    #[inline]
     fn outside(&mut self, axis: usize, side: Ordering) {
-        match side {
-            Ordering::Less => self.sides.mark_below(axis),
-            _ => self.sides.mark_above(axis),
-        }
+        (self.outside)(axis, side);
     }
 }
 

@@ -7,7 +7,7 @@
 use std::cmp::Ordering;
 use std::ops::Range;
 
-use super::arithmetic::{AnyExponent, Arithmetic, Double, NotingSides, Plain, WithSlope};
+use super::arithmetic::{AnyExponent, Arithmetic, Double, Plain, WithSlope};
 use super::{Level, PiecewiseTable, Point, Sides};
 use crate::numbers::Scaled;
 
@@ -31,7 +31,7 @@ impl PiecewiseTable {
 
     /// [`Self::value`] with the coordinate of axis 0 separate from the others.
     pub fn value_at(&self, first: f64, others: &[f64]) -> f64 {
-        self.evaluate(&mut Plain, Point { first, others }).unwrap_or(f64::NAN)
+        self.evaluate(&mut Plain { outside: |_, _| () }, Point { first, others }).unwrap_or(f64::NAN)
     }
 
     /// The value, and along which axes the point lies outside the range of a group that took part in it.
@@ -40,9 +40,13 @@ impl PiecewiseTable {
         if let Some(marks) = &self.0.marks {
             return (self.value_at(first, others), marks.sides(point, self.is_undefined_at(point)));
         }
-        let mut noting = NotingSides::default();
-        let value = self.evaluate(&mut noting, point).unwrap_or(f64::NAN);
-        (value, noting.sides)
+        let mut sides = Sides::default();
+        let outside = |axis, side| match side {
+            Ordering::Less => sides.mark_below(axis),
+            _ => sides.mark_above(axis),
+        };
+        let value = self.evaluate(&mut Plain { outside }, point).unwrap_or(f64::NAN);
+        (value, sides)
     }
 
     /// Along which axes `point` lies outside the range of a group that takes part in the value there.

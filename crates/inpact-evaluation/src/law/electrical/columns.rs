@@ -126,8 +126,8 @@ impl ElectricalColumns {
             (Some(user), Some(law)) => ConductanceSource::User(Box::new(UserColumns::bind(binder, user, law)?)),
             _ => {
                 let variables = binder.means(&plan.variables);
-                let columns =
-                    BranchColumns::new(tables.electrical_tables()?, &plan.tables, choices.accuracy, variables);
+                let conductance = tables.electrical.conductance()?;
+                let columns = BranchColumns::new(conductance, &plan.tables, choices.accuracy, variables);
                 ConductanceSource::Tables(Box::new(columns))
             }
         };

@@ -1,5 +1,6 @@
 //! The plan of the electrical law of one interaction.
 
+use crate::law::conductance::pair::TablePair;
 use crate::law::heat::HeatGeneration;
 use crate::law::user::plan::{UserPlan, plan_user};
 use crate::nodes::{Column, Part};
@@ -9,7 +10,7 @@ use crate::plan::output_groups::{ELECTRICAL_FLOWS, SUMS_OF_HEAT};
 use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use crate::plan::regime::regime;
-use crate::plan::source::{Source, whole_or_sides};
+use crate::plan::source::Source;
 use crate::plan::tables::{InteractionTables, electrical_axis, matters};
 use crate::plan::{AxisPlan, Choices, Derivatives, Dropped, History, RegimeInForce, TablePlan};
 use crate::results::{Along, Output};
@@ -43,7 +44,7 @@ pub struct ElectricalPlan {
 /// The name of the law where it is left out.
 pub(crate) const LAW: &str = "electrical law";
 
-/// Plans the electrical law; `None` after reporting why there is none.
+/// Plans the electrical law; an error says why a deck or node table that tells of it has none.
 pub(crate) fn plan_electrical(
     planner: Planner<'_>,
     tables: &InteractionTables,
@@ -51,36 +52,56 @@ pub(crate) fn plan_electrical(
     left_out: &mut LeftOuts,
     notes: &mut Vec<String>,
     dropped: &mut Vec<Dropped>,
-) -> Option<ElectricalPlan> {
+) -> Result<Option<ElectricalPlan>, Reason> {
     let Some(option) = &planner.interaction.gap_electrical_conductance else {
-        let potentials = [Part::Both, Part::Slave, Part::Master].map(Column::Potential);
-        if potentials.into_iter().any(|column| planner.may_have(column)) {
-            left_out.push(LAW, Reason::NoKeyword(KEYWORD));
-        }
-        return None;
+        let mut potentials = [Part::Both, Part::Slave, Part::Master].map(Column::Potential).into_iter();
+        let has_potential = potentials.any(|column| planner.may_have(column));
+        return if has_potential { Err(Reason::NoKeyword(KEYWORD)) } else { Ok(None) };
     };
-    if option.user.is_some() {
-        if planner.choices.user_conductance.is_none() {
-            left_out.push(LAW, Reason::NeedsUserSubroutine("GAPELECTR"));
-            return None;
-        }
-        return match plan_user(planner, notes) {
-            Ok(user) => Some(plan_with_user(planner, user, outputs, left_out)),
-            Err(missing) => {
-                left_out.push(LAW, Reason::Missing(missing));
-                None
-            }
-        };
+    let mut plan = ElectricalPlan {
+        regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
+        tables: Vec::new(),
+        user: None,
+        heat: None,
+        variables: Vec::new(),
+        jump: None,
+        area: None,
+        history: History::None,
+    };
+    if option.user.is_none() {
+        plan_tables(planner, (option, &tables.electrical), &mut plan, left_out, dropped)?;
+    } else if planner.choices.user_conductance.is_some() {
+        // The routine replaces all tables (K-08).
+        plan.user = Some(plan_user(planner, notes)?);
+    } else {
+        return Err(Reason::NeedsUserSubroutine("GAPELECTR"));
     }
-    if let Some(error) = tables.electrical_error() {
-        left_out.push(LAW, Reason::BrokenTable(error));
-        return None;
+    plan.heat = planner.heat_generation();
+    if plan.heat.is_none() {
+        left_out.push("heat generation", Reason::HeatSwitchedOff);
     }
-    let all: Vec<(Along, &PiecewiseTable)> = tables.electrical().collect();
-    if all.is_empty() {
-        left_out.push(LAW, Reason::NoRows(KEYWORD));
-        return None;
+    outputs.insert(Output::Conductance);
+    if planner.choices.derivatives == Derivatives::Given {
+        let along = plan.tables.iter().flat_map(|table| &table.axes).filter(|axis| axis.matters).map(|axis| axis.along);
+        let of_user = plan.user.as_ref().map(|_| Along::Temperature);
+        outputs.extend(along.chain(of_user).map(Output::ConductanceSlope));
     }
+    plan_flows(planner, &mut plan, outputs, left_out);
+    Ok(Some(plan))
+}
+
+/// Plans the tables that rows reach, and the sources of their variables.
+fn plan_tables(
+    planner: Planner<'_>,
+    (option, tables): (&ElectricalConductance, &TablePair),
+    plan: &mut ElectricalPlan,
+    left_out: &mut LeftOuts,
+    dropped: &mut Vec<Dropped>,
+) -> Result<(), Reason> {
+    if let Some(fault) = tables.fault(KEYWORD) {
+        return Err(fault);
+    }
+    let all: Vec<(Along, &PiecewiseTable)> = tables.tables().collect();
     let mut used = Vec::new();
     for (against, table) in &all {
         match planner.unreached(*against, all.len()) {
@@ -94,18 +115,10 @@ pub(crate) fn plan_electrical(
             None => used.push((*against, *table)),
         }
     }
-    let variables = match sources(planner, &used) {
-        Ok(variables) => variables,
-        Err(missing) => {
-            left_out.push(LAW, Reason::Missing(missing));
-            return None;
-        }
-    };
-    let heat = heat(planner, left_out);
-    let mut tables: Vec<TablePlan> =
-        used.iter().map(|(against, table)| electrical_table_plan(option, *against, table)).collect();
+    let variables = sources(planner, &used)?;
+    plan.tables = used.iter().map(|(against, table)| electrical_table_plan(option, *against, table)).collect();
     let may_fold = planner.may_fold(|output| matches!(output, Output::ConductanceSlope(_)));
-    for ((_, table), plan) in used.iter().zip(&mut tables) {
+    for ((_, table), plan) in used.iter().zip(&mut plan.tables) {
         fold_and_choose(planner, table, plan, |along| match along {
             _ if !may_fold => None,
             Along::Clearance => planner.constant_clearance(all.len()),
@@ -113,60 +126,15 @@ pub(crate) fn plan_electrical(
             _ => planner.constant_of(variables[variable_index(along)?]?),
         });
     }
-    let is_read = |axis: usize| tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
+    let is_read = |axis: usize| plan.tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
     let variables = variables.into_iter().enumerate();
-    let variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 1))).collect();
-    let mut plan = ElectricalPlan {
-        regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
-        tables,
-        user: None,
-        heat,
-        variables,
-        jump: None,
-        area: None,
-        history: History::None,
-    };
-    outputs.insert(Output::Conductance);
-    if planner.choices.derivatives == Derivatives::Given {
-        let along = plan.tables.iter().flat_map(|table| &table.axes).filter(|axis| axis.matters);
-        outputs.extend(along.map(|axis| Output::ConductanceSlope(axis.along)));
-    }
-    plan_flows(planner, &mut plan, outputs, left_out);
-    Some(plan)
-}
-
-/// Plans the law with the conductance of a user's routine, which replaces all tables (K-08).
-fn plan_with_user(
-    planner: Planner<'_>,
-    user: UserPlan,
-    outputs: &mut BTreeSet<Output>,
-    left_out: &mut LeftOuts,
-) -> ElectricalPlan {
-    let mut plan = ElectricalPlan {
-        regime: regime(planner.model, planner.choices.regime, Procedure::solves_electrical),
-        tables: Vec::new(),
-        user: Some(user),
-        heat: heat(planner, left_out),
-        variables: Vec::new(),
-        jump: None,
-        area: None,
-        history: History::None,
-    };
-    outputs.insert(Output::Conductance);
-    if planner.choices.derivatives == Derivatives::Given {
-        outputs.insert(Output::ConductanceSlope(Along::Temperature));
-    }
-    plan_flows(planner, &mut plan, outputs, left_out);
-    plan
+    plan.variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 1))).collect();
+    Ok(())
 }
 
 /// The sources of the variables of the tables in use, or the missing columns.
 fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Vec<Option<Source<Column>>>, Missing> {
-    let presence = |column| planner.presence(column);
-    let contact = planner.contact();
-    if contact.clearance.is_none() && contact.pressure.is_none() && contact.closed.is_none() {
-        return Err(crate::plan::source::cell(Column::Clearance, presence).expect_err("it has no numbers"));
-    }
+    planner.check_contact()?;
     for (against, table) in used {
         planner.check_abscissa(*against, table)?;
     }
@@ -174,18 +142,9 @@ fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Ve
     let sources = (1..count).map(|axis| {
         let is_needed = used.iter().any(|(_, table)| matters(table, axis));
         let columns = columns_of(electrical_axis(Along::Clearance, axis)).filter(|_| is_needed);
-        columns.map(|columns| whole_or_sides(columns, presence)).transpose()
+        columns.map(|columns| planner.whole_or_sides(columns)).transpose()
     });
     sources.collect()
-}
-
-/// Shares of the heat; `None` where it is switched off (K-05).
-fn heat(planner: Planner<'_>, left_out: &mut LeftOuts) -> Option<HeatGeneration> {
-    let heat = planner.heat_generation();
-    if heat.is_none() {
-        left_out.push("heat generation", Reason::HeatSwitchedOff);
-    }
-    heat
 }
 
 /// Plans current and heat, their integrals and their products with the area.
@@ -197,45 +156,23 @@ fn plan_flows(
 ) {
     use Output::{Ecd, Ecda, Ecdt, Ecdta, HeatMaster, HeatSlave, Sjd, Sjda, Sjdt, Sjdta, Weight};
     let heat = plan.heat.is_some();
-    let wanted = |of: &[Output]| -> Vec<Output> {
-        of.iter().copied().filter(|output| heat || matches!(output, Ecd | Ecda | Ecdt | Ecdta)).collect()
-    };
-    outputs.extend(wanted(&[Weight]));
+    if heat {
+        outputs.insert(Weight);
+    }
     let potentials = [Part::Both, Part::Slave, Part::Master].map(Column::Potential);
-    match whole_or_sides(potentials, |column| planner.presence(column)) {
+    match planner.whole_or_sides(potentials) {
         Ok(source) => plan.jump = Some(source),
         Err(missing) => {
             let all = [Ecd, Ecda, Ecdt, Ecdta, Sjd, Sjda, Sjdt, Sjdta, HeatSlave, HeatMaster];
-            left_out.push_outputs(&wanted(&all), Reason::Missing(missing));
+            left_out.push_outputs(if heat { &all } else { &all[..4] }, Reason::Missing(missing));
             return;
         }
     }
-    outputs.extend(wanted(&[Ecd, Sjd, HeatSlave, HeatMaster]));
-    let area = planner.area();
-    match &area {
-        Ok(column) => {
-            plan.area = Some(*column);
-            outputs.extend(wanted(&[Ecda, Sjda]));
-        }
-        Err(missing) => {
-            left_out.push_outputs(&wanted(&[Ecda, Ecdta, Sjda, Sjdta]), Reason::Missing(missing.clone()));
-        }
+    if heat {
+        outputs.extend([HeatSlave, HeatMaster]);
     }
-    match planner.history() {
-        Ok(()) => {
-            plan.history = History::ByTime;
-            outputs.extend(wanted(&[Ecdt, Sjdt]));
-            if area.is_ok() {
-                outputs.extend(wanted(&[Ecdta, Sjdta]));
-            }
-        }
-        Err(missing) => {
-            let without_area = [Ecdt, Sjdt];
-            let with_area = [Ecdt, Ecdta, Sjdt, Sjdta];
-            let lost: &[Output] = if area.is_ok() { &with_area } else { &without_area };
-            left_out.push_outputs(&wanted(lost), Reason::Missing(missing));
-        }
-    }
+    let groups = [[Ecd, Ecda, Ecdt, Ecdta], [Sjd, Sjda, Sjdt, Sjdta]];
+    (plan.area, plan.history) = planner.flows(if heat { &groups } else { &groups[..1] }, outputs, left_out);
 }
 
 /// The index of a temperature or a field variable among the variables of the law.
@@ -255,7 +192,7 @@ fn electrical_table_plan(option: &ElectricalConductance, against: Along, table: 
 
 /// The columns that the electrical law by tables could use.
 pub(crate) fn want_electrical(tables: &InteractionTables, choices: &Choices, wanted: &mut BTreeSet<Column>) {
-    for (against, table) in tables.electrical() {
+    for (against, table) in tables.electrical.tables() {
         want_of_electrical_law(choices, wanted);
         want_variables(table, |axis| electrical_axis(against, axis), wanted);
     }

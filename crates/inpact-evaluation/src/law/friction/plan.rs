@@ -1,8 +1,8 @@
 //! The plan of the heat of friction of one interaction.
 
 use crate::law::heat::HeatGeneration;
-use crate::law::thermal::planned::Planned;
 use crate::nodes::Column;
+use crate::plan::ContactColumns;
 use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use inpact_parser::grammar::Dialect;
@@ -28,6 +28,11 @@ pub enum SlipRateSource {
     Given(f64),
 }
 
+/// The slip rate that the deck gives (K-38, CalculiX).
+pub(crate) fn given_slip_rate(interaction: &Interaction) -> Option<f64> {
+    interaction.gap_heat_generation.as_deref().and_then(inpact_parser::model::HeatGeneration::given_slip_rate)
+}
+
 /// Whether the options of an interaction define heat by friction: only then are `shear` and `slip_rate` used.
 pub(crate) fn tells_of_friction(interaction: &Interaction) -> bool {
     tells_of_heat(interaction) || interaction.friction().is_some()
@@ -45,51 +50,39 @@ pub(crate) fn plan_friction(
     planner: Planner<'_>,
     heat: Option<HeatGeneration>,
     left_out: &mut LeftOuts,
-) -> Planned<FrictionPlan> {
+) -> Result<Option<FrictionPlan>, Reason> {
     const SWITCHED_OFF: &str = "heat generation";
     let columns = [Column::Shear, Column::SlipRate];
     let is_there = |column: &Column| planner.may_have(*column);
     if !tells_of_friction(planner.interaction) {
         let is_described = columns.iter().all(is_there);
-        return if is_described {
-            Planned::LeftOut(Reason::NoKeyword(OptionKind::Friction.keyword()))
-        } else {
-            Planned::Absent
-        };
+        return if is_described { Err(Reason::NoKeyword(OptionKind::Friction.keyword())) } else { Ok(None) };
     }
-    let given_speed = planner
-        .interaction
-        .gap_heat_generation
-        .as_deref()
-        .and_then(inpact_parser::model::HeatGeneration::given_slip_rate);
+    let given_speed = given_slip_rate(planner.interaction);
     let is_reported = columns.iter().any(is_there)
         || (tells_of_heat(planner.interaction) && planner.interaction.friction().is_some());
     if !is_reported {
-        return Planned::Absent;
+        return Ok(None);
     }
     if heat.is_none() {
         if !left_out.0.iter().any(|left_out| left_out.what == SWITCHED_OFF) {
             left_out.push(SWITCHED_OFF, Reason::HeatSwitchedOff);
         }
-        return Planned::Absent;
+        return Ok(None);
     }
     if planner.choices.dialect == Dialect::Calculix && planner.interaction.gap_heat_generation.is_none() {
-        return Planned::LeftOut(Reason::NotInCalculix("generates heat with *GAP HEAT GENERATION only"));
+        return Err(Reason::NotInCalculix("generates heat with *GAP HEAT GENERATION only"));
     }
-    let needed: Vec<Column> = if given_speed.is_some() { vec![Column::Shear] } else { columns.to_vec() };
-    let lacking: Vec<Column> = needed.into_iter().filter(|column| !planner.presence(*column).has_numbers()).collect();
-    if !lacking.is_empty() {
-        let are_empty = lacking.iter().all(|column| planner.survey.columns.contains(column));
-        let missing = if are_empty { Missing::empty(lacking) } else { Missing::absent(lacking) };
-        return Planned::LeftOut(Reason::Missing(missing));
+    match given_speed {
+        Some(_) => planner.cell(Column::Shear).map(drop)?,
+        None => planner.all_of(columns).map(drop)?,
     }
-    let contact = planner.contact();
-    if contact.clearance.is_none() && contact.pressure.is_none() && contact.closed.is_none() {
-        return Planned::LeftOut(Reason::Missing(Missing::absent(vec![Column::Clearance])));
+    if planner.contact() == ContactColumns::default() {
+        return Err(Missing::absent(vec![Column::Clearance]).into());
     }
-    Planned::Part(FrictionPlan {
+    Ok(Some(FrictionPlan {
         dialect: planner.choices.dialect,
         shear: Column::Shear,
         slip_rate: given_speed.map_or(SlipRateSource::Column, SlipRateSource::Given),
-    })
+    }))
 }

@@ -7,7 +7,7 @@ use crate::plan::law_columns::{columns_of, want_of_any_law, want_variables};
 use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use crate::plan::regime::regime;
-use crate::plan::source::{Source, cell, whole_or_sides};
+use crate::plan::source::Source;
 use crate::plan::tables::{InteractionTables, matters, pore_axis};
 use crate::plan::{AxisPlan, Choices, Derivatives, History, RegimeInForce, TablePlan};
 use crate::results::{Along, Output};
@@ -79,62 +79,54 @@ pub enum Bulk {
     Halves,
 }
 
-/// Plans the pore fluid law; `None` after reporting why there is none.
+/// The name of the law where it is left out.
+pub(crate) const LAW: &str = "pore fluid law";
+
+impl Cutoffs {
+    /// The cutoffs that an interaction gives.
+    pub(crate) fn of(interaction: &Interaction) -> Self {
+        interaction.contact_permeability.as_ref().map_or_else(Self::default, |option| Self {
+            flow_across: option.cutoff_flow_across,
+            gap_fill: option.cutoff_gap_fill,
+        })
+    }
+}
+
+/// Plans the pore fluid law; an error says why a deck or node table that tells of it has none.
 pub(crate) fn plan_pore(
     planner: Planner<'_>,
     tables: &InteractionTables,
     outputs: &mut BTreeSet<Output>,
     left_out: &mut LeftOuts,
     notes: &mut Vec<String>,
-) -> Option<PorePlan> {
-    const LAW: &str = "pore fluid law";
+) -> Result<Option<PorePlan>, Reason> {
     let option = planner.interaction.contact_permeability.as_ref();
     let sides = [Part::Slave, Part::Master].map(Column::PorePressure);
     if option.is_none() && !planner.model.procedures.iter().any(Procedure::solves_pore_pressure) {
-        if sides.into_iter().all(|column| planner.may_have(column)) {
-            left_out.push(LAW, Reason::NoPoreAnalysis);
-        }
-        return None;
+        let has_sides = sides.into_iter().all(|column| planner.may_have(column));
+        return if has_sides { Err(Reason::NoPoreAnalysis) } else { Ok(None) };
     }
-    let jump = cell(Column::PorePressure(Part::Both), |column| planner.presence(column)).ok();
-    let lacking: Vec<Column> = sides.into_iter().filter(|column| !planner.presence(*column).has_numbers()).collect();
-    let has_sides = lacking.is_empty();
+    let jump = planner.cell(Column::PorePressure(Part::Both)).ok();
+    let pressures = planner.all_of(sides);
+    let has_sides = pressures.is_ok();
     // The table may depend on their mean; the flow across needs only their difference.
     let needs_sides = jump.is_none() || tables.permeability().is_some_and(|table| matters(table, 1));
-    match lacking[..] {
-        _ if !needs_sides => {}
-        [] => {}
-        [missing] => {
-            left_out.push(LAW, Reason::OneSided { missing });
-            return None;
-        }
-        _ => {
-            let is_there = lacking.iter().all(|column| planner.survey.header.has(*column));
-            let missing = if is_there { Missing::empty(lacking) } else { Missing::absent(lacking) };
-            let missing = if jump.is_none() { missing.or(Column::PorePressure(Part::Both)) } else { missing };
-            left_out.push(LAW, Reason::Missing(missing));
-            return None;
-        }
+    if let Err(missing) = pressures
+        && needs_sides
+    {
+        return Err(match missing.columns[..] {
+            [missing] => Reason::OneSided { missing },
+            _ if jump.is_none() => missing.or(Column::PorePressure(Part::Both)).into(),
+            _ => missing.into(),
+        });
     }
     if let Some(error) = tables.permeability_error() {
-        left_out.push(LAW, Reason::BrokenTable(error));
-        return None;
+        return Err(Reason::BrokenTable(error));
     }
     let table = tables.permeability();
-    let variables = match sources(planner, table) {
-        Ok(variables) => variables,
-        Err(missing) => {
-            left_out.push(LAW, Reason::Missing(missing));
-            return None;
-        }
-    };
-    let cutoffs = option.map_or_else(Cutoffs::default, |option| Cutoffs {
-        flow_across: option.cutoff_flow_across,
-        gap_fill: option.cutoff_gap_fill,
-    });
+    let variables = sources(planner, table)?;
+    let cutoffs = Cutoffs::of(planner.interaction);
     let regime = regime(planner.model, planner.choices.regime, Procedure::solves_pore_pressure);
-    let history = planner.history();
-    let has_history = history.is_ok();
     let is_transient = regime.regime == Regime::Transient;
     let mut table_plan = table.map(|table| table_plan(table, pore_axis));
     let may_fold = planner.may_fold(|output| matches!(output, Output::PermeabilitySlope(_)));
@@ -152,38 +144,36 @@ pub(crate) fn plan_pore(
         |axis: usize| table_plan.as_ref().is_some_and(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
     let variables = variables.into_iter().enumerate();
     let variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 2))).collect();
-    let given = |column| cell(column, |column| planner.presence(column)).ok();
     let mut plan = PorePlan {
         table: table_plan,
         cutoffs,
         variables,
         pressures: has_sides.then_some(sides),
         jump: jump.filter(|_| table.is_some() || !has_sides),
-        across: given(Column::FlowAcross).filter(|_| table.is_none()),
+        across: planner.cell(Column::FlowAcross).ok().filter(|_| table.is_none()),
         characteristic_length: characteristic_length(planner, cutoffs, is_transient),
-        rate: if is_transient { rate(planner, has_history) } else { Rate::NotNeeded },
+        rate: if is_transient { rate(planner) } else { Rate::NotNeeded },
         bulk: bulk(planner, table.is_some() && is_transient),
         area: None,
-        history: if has_history { History::ByTime } else { History::None },
+        history: History::None,
         regime,
     };
-    plan_flows(planner, &mut plan, history.err(), outputs, left_out);
+    plan_flows(planner, &mut plan, outputs, left_out);
     add_notes(planner, &plan, notes);
-    Some(plan)
+    Ok(Some(plan))
 }
 
 /// The sources of the variables of the table, or the missing columns.
 fn sources(planner: Planner<'_>, table: Option<&PiecewiseTable>) -> Result<Vec<Option<Source<Column>>>, Missing> {
-    let presence = |column| planner.presence(column);
-    cell(Column::Clearance, presence)?;
+    planner.cell(Column::Clearance)?;
     let Some(table) = table else { return Ok(Vec::new()) };
     // While open the table is read at zero pressure (P-34).
     if matters(table, 0) && !planner.never(planner.of.closed) {
-        cell(Column::Pressure, presence)?;
+        planner.cell(Column::Pressure)?;
     }
     let sources = (2..table.axis_count()).map(|axis| {
         let columns = columns_of(pore_axis(axis)).filter(|_| matters(table, axis));
-        columns.map(|columns| whole_or_sides(columns, presence)).transpose()
+        columns.map(|columns| planner.whole_or_sides(columns)).transpose()
     });
     sources.collect()
 }
@@ -198,10 +188,10 @@ fn characteristic_length(planner: Planner<'_>, cutoffs: Cutoffs, is_transient: b
     }
 }
 
-fn rate(planner: Planner<'_>, has_history: bool) -> Rate {
+fn rate(planner: Planner<'_>) -> Rate {
     if planner.presence(Column::ClearanceRate).has_numbers() {
         Rate::Column
-    } else if has_history {
+    } else if planner.history().is_ok() {
         Rate::History
     } else {
         Rate::Unknown
@@ -209,20 +199,14 @@ fn rate(planner: Planner<'_>, has_history: bool) -> Rate {
 }
 
 fn bulk(planner: Planner<'_>, is_of_use: bool) -> Bulk {
-    let mut sides = [Part::Slave, Part::Master].map(Column::BulkPermeability).into_iter();
-    if is_of_use && sides.all(|side| planner.presence(side).has_numbers()) { Bulk::Columns } else { Bulk::Halves }
+    let sides = [Part::Slave, Part::Master].map(Column::BulkPermeability);
+    if is_of_use && planner.all_of(sides).is_ok() { Bulk::Columns } else { Bulk::Halves }
 }
 
 /// Plans the flows, their integrals and their products with the area.
-fn plan_flows(
-    planner: Planner<'_>,
-    plan: &mut PorePlan,
-    no_history: Option<Missing>,
-    outputs: &mut BTreeSet<Output>,
-    left_out: &mut LeftOuts,
-) {
+fn plan_flows(planner: Planner<'_>, plan: &mut PorePlan, outputs: &mut BTreeSet<Output>, left_out: &mut LeftOuts) {
     use Output::{Permeability, Pfl, Pfla, Ptl, Ptla, QAcross, QGapMaster, QGapSlave, QMaster, QSlave};
-    outputs.extend([Pfl, QAcross, QGapSlave, QGapMaster, QSlave, QMaster]);
+    outputs.extend([QAcross, QGapSlave, QGapMaster, QSlave, QMaster]);
     match &plan.table {
         Some(table) => {
             outputs.insert(Permeability);
@@ -233,26 +217,7 @@ fn plan_flows(
         }
         None => left_out.push_outputs(&[Permeability], Reason::InfinitePermeability),
     }
-    let area = planner.area();
-    match &area {
-        Ok(column) => {
-            plan.area = Some(*column);
-            outputs.insert(Pfla);
-        }
-        Err(missing) => left_out.push_outputs(&[Pfla, Ptla], Reason::Missing(missing.clone())),
-    }
-    match no_history {
-        None => {
-            outputs.insert(Ptl);
-            if area.is_ok() {
-                outputs.insert(Ptla);
-            }
-        }
-        Some(missing) => {
-            let lost: &[Output] = if area.is_ok() { &[Ptl, Ptla] } else { &[Ptl] };
-            left_out.push_outputs(lost, Reason::Missing(missing));
-        }
-    }
+    (plan.area, plan.history) = planner.flows(&[[Pfl, Pfla, Ptl, Ptla]], outputs, left_out);
 }
 
 fn add_notes(planner: Planner<'_>, plan: &PorePlan, notes: &mut Vec<String>) {

@@ -1,13 +1,11 @@
 //! The plan of the heat radiated across one interaction.
 
-use crate::law::thermal::planned::{Planned, temperatures};
 use crate::law::thermal::tables::ThermalTables;
-use crate::nodes::Column;
+use crate::nodes::{Column, Part};
 use crate::plan::TablePlan;
 use crate::plan::folding::table_plan;
 use crate::plan::planner::Planner;
 use crate::plan::reason::Reason;
-use crate::plan::source::cell;
 use crate::results::Along;
 use inpact_parser::grammar::Dialect;
 
@@ -23,31 +21,25 @@ pub struct RadiationPlan {
 }
 
 /// Plans radiation, which needs the constants of the deck, the temperatures of both sides, and the clearance of open rows.
-pub(crate) fn plan_radiation(planner: Planner<'_>, tables: &ThermalTables) -> Planned<RadiationPlan> {
+pub(crate) fn plan_radiation(planner: Planner<'_>, tables: &ThermalTables) -> Result<Option<RadiationPlan>, Reason> {
     let law = match &tables.radiation {
-        None => return Planned::Absent,
+        None => return Ok(None),
         Some(_) if planner.choices.dialect == Dialect::Calculix => {
-            return Planned::LeftOut(Reason::NotInCalculix("has no *GAP RADIATION"));
+            return Err(Reason::NotInCalculix("has no *GAP RADIATION"));
         }
-        Some(Err(fault)) => {
-            return Planned::LeftOut(fault.reason());
-        }
+        Some(Err(fault)) => return Err(fault.reason()),
         Some(Ok(law)) => law,
     };
     let contact = planner.contact();
     let is_known_otherwise = contact.pressure.is_some() || contact.closed.is_some();
     // In contact the view factor is that of zero clearance.
-    if !(is_known_otherwise && planner.never(planner.of.open))
-        && let Err(missing) = cell(Column::Clearance, |column| planner.presence(column))
-    {
-        return Planned::LeftOut(Reason::Missing(missing));
+    if !(is_known_otherwise && planner.never(planner.of.open)) {
+        planner.cell(Column::Clearance)?;
     }
-    if let Err(missing) = temperatures(planner) {
-        return Planned::LeftOut(Reason::Missing(missing));
-    }
-    Planned::Part(RadiationPlan {
+    planner.all_of([Part::Slave, Part::Master].map(Column::Temperature))?;
+    Ok(Some(RadiationPlan {
         coefficient: law.coefficient.0,
         absolute_zero: law.absolute_zero,
         table: table_plan(&law.view_factor, |_| Along::Clearance),
-    })
+    }))
 }

@@ -1,19 +1,17 @@
 //! The plan of the heat conducted across one interaction.
 
-use crate::law::thermal::planned::Planned;
-use crate::law::thermal::tables::{ConductanceRows, ThermalTables, thermal_axis};
+use crate::law::thermal::tables::{ThermalTables, thermal_axis};
 use crate::nodes::Column;
 use crate::plan::folding::{fold_and_choose, table_plan};
 use crate::plan::law_columns::columns_of;
 use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
-use crate::plan::source::{Source, cell, whole_or_sides};
+use crate::plan::source::Source;
 use crate::plan::tables::matters;
 use crate::plan::{AxisPlan, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::grammar::Dialect;
-use inpact_parser::model::OptionKind;
 
 /// The plan of conduction.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,33 +42,12 @@ pub(crate) fn plan_conduction(
     planner: Planner<'_>,
     tables: &ThermalTables,
     left_out: &mut LeftOuts,
-) -> Planned<ConductionPlan> {
-    let error = match &tables.conductance {
-        None => return Planned::Absent,
-        Some(ConductanceRows::User) => Some(Reason::NeedsUserSubroutine("GAPCON")),
-        Some(ConductanceRows::Nothing) => Some(Reason::NoRows(OptionKind::GapConductance.keyword())),
-        Some(ConductanceRows::Tables { clearance, pressure }) => {
-            let mut errors = [clearance, pressure].into_iter().flatten().filter_map(|table| table.as_ref().err());
-            errors.next().copied().map(Reason::BrokenTable)
-        }
-        Some(ConductanceRows::Calculix(curves)) => curves.as_ref().err().copied().map(Reason::BrokenCurves),
-    };
-    match error {
-        Some(reason) => Planned::LeftOut(reason),
-        None => Planned::of(conduction_of_tables(planner, tables, left_out).map_err(Reason::Missing)),
+) -> Result<Option<ConductionPlan>, Reason> {
+    let Some(rows) = &tables.conductance else { return Ok(None) };
+    if let Some(fault) = rows.fault() {
+        return Err(fault);
     }
-}
-
-fn conduction_of_tables(
-    planner: Planner<'_>,
-    tables: &ThermalTables,
-    left_out: &mut LeftOuts,
-) -> Result<ConductionPlan, Missing> {
-    let presence = |column| planner.presence(column);
-    let contact = planner.contact();
-    if contact.clearance.is_none() && contact.pressure.is_none() && contact.closed.is_none() {
-        cell(Column::Clearance, presence)?;
-    }
+    planner.check_contact()?;
     let all = tables.conductance_tables();
     let mut used: Vec<(Along, &PiecewiseTable)> = Vec::new();
     for (against, table) in &all {
@@ -95,7 +72,7 @@ fn conduction_of_tables(
                 mass_flow = Some(mass_flow_source(planner, columns)?);
                 None
             }
-            (_, Some(columns)) => Some(whole_or_sides(columns, presence)?),
+            (_, Some(columns)) => Some(planner.whole_or_sides(columns)?),
         });
     }
     let tables = used.iter().map(|(against, table)| table_plan(table, |axis| thermal_axis(*against, axis)));
@@ -105,7 +82,7 @@ fn conduction_of_tables(
         let tables: Vec<&PiecewiseTable> = used.iter().map(|(_, table)| *table).collect();
         fold_conduction(planner, (&tables, all.len()), &mut plan);
     }
-    Ok(plan)
+    Ok(Some(plan))
 }
 
 /// Folds the tables in use, of `count` that there are, along variables that are constant, and chooses their methods; variables that no table reads any more are left out.
@@ -132,7 +109,7 @@ fn mass_flow_source(planner: Planner<'_>, [mean, slave, master]: [Column; 3]) ->
     let found = |column| Some(column).filter(|column| planner.presence(*column).has_numbers());
     let source = MassFlow { mean: found(mean), slave: found(slave), master: found(master) };
     if source == (MassFlow { mean: None, slave: None, master: None }) {
-        cell(mean, |column| planner.presence(column))?;
+        planner.cell(mean)?;
     }
     Ok(source)
 }

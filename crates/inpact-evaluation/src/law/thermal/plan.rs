@@ -6,7 +6,6 @@
 //! Friction is the exception: most decks have *FRICTION and few node tables have slip, so HFL without it is given, and the plan says so.
 
 use super::conduction::{ConductionPlan, plan_conduction};
-use super::planned::temperatures;
 use super::tables::thermal_axis;
 use crate::accuracy::Wanted;
 use crate::law::electrical::plan::LAW as ELECTRICAL_LAW;
@@ -20,7 +19,7 @@ use crate::plan::law_columns::{want_of_any_law, want_variables};
 use crate::plan::output_groups::SUMS_OF_HEAT;
 use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::Reason;
-use crate::plan::source::{Source, cell};
+use crate::plan::source::Source;
 use crate::plan::{Currents, Derivatives, ElectricalPlan, History};
 use crate::results::Output;
 use inpact_parser::grammar::Dialect;
@@ -85,11 +84,13 @@ pub(crate) fn plan_thermal(
     notes: &mut Vec<String>,
 ) -> Option<ThermalPlan> {
     let mut unknown = None;
-    let conduction = plan_conduction(planner, tables, left_out).part("heat conduction", left_out, &mut unknown);
-    let radiation = plan_radiation(planner, tables).part("heat radiation", left_out, &mut unknown);
+    let conduction = plan_conduction(planner, tables, left_out);
+    let conduction = part("heat conduction", conduction, left_out, &mut unknown);
+    let radiation = part("heat radiation", plan_radiation(planner, tables), left_out, &mut unknown);
     let heat = planner.heat_generation();
     let mut without_friction = None;
-    let friction = plan_friction(planner, heat, left_out).part("heat of friction", left_out, &mut without_friction);
+    let friction = plan_friction(planner, heat, left_out);
+    let friction = part("heat of friction", friction, left_out, &mut without_friction);
     if conduction.is_none() && radiation.is_none() && friction.is_none() {
         return None;
     }
@@ -150,6 +151,19 @@ pub(crate) fn plan_thermal(
     Some(plan)
 }
 
+/// A part of the law; where there is none, says why and remembers the first reason.
+fn part<T>(
+    what: &str,
+    planned: Result<Option<T>, Reason>,
+    left_out: &mut LeftOuts,
+    first: &mut Option<Reason>,
+) -> Option<T> {
+    if let Err(reason) = &planned {
+        first.get_or_insert_with(|| reason.clone());
+    }
+    left_out.planned(what, planned)
+}
+
 /// Whether current generates heat; an error where it may and the amount is unknown.
 fn current_heat(
     planner: Planner<'_>,
@@ -187,10 +201,10 @@ fn plan_flows(
         TotalHeatSlave, Weight,
     };
     if plan.conduction.is_some() || plan.radiation.is_some() {
-        match temperatures(planner) {
+        match planner.all_of([Part::Slave, Part::Master].map(Column::Temperature)) {
             Ok(sides) => {
                 plan.temperatures = Some(sides);
-                plan.jump = cell(Column::TemperatureJump, |column| planner.presence(column)).ok();
+                plan.jump = planner.cell(Column::TemperatureJump).ok();
                 outputs.extend(plan.conduction.is_some().then_some(HeatConduction));
                 outputs.extend(plan.radiation.is_some().then_some(HeatRadiation));
             }
@@ -222,31 +236,7 @@ fn plan_flows(
     if groups.is_empty() {
         return;
     }
-    let (area, history) = (planner.area(), planner.history());
-    plan.area = area.as_ref().ok().copied();
-    plan.history = if history.is_ok() { History::ByTime } else { History::None };
-    let mut without_area = Vec::new();
-    let mut without_history = Vec::new();
-    for [flow, of_area, integral, integral_of_area] in groups {
-        outputs.insert(flow);
-        if area.is_ok() {
-            outputs.insert(of_area);
-        } else {
-            without_area.extend([of_area, integral_of_area]);
-        }
-        match (history.is_ok(), area.is_ok()) {
-            (true, true) => outputs.extend([integral, integral_of_area]),
-            (true, false) => outputs.extend([integral]),
-            (false, true) => without_history.extend([integral, integral_of_area]),
-            (false, false) => without_history.push(integral),
-        }
-    }
-    if let Err(missing) = area {
-        left_out.push_outputs(&without_area, Reason::Missing(missing));
-    }
-    if let Err(missing) = history {
-        left_out.push_outputs(&without_history, Reason::Missing(missing));
-    }
+    (plan.area, plan.history) = planner.flows(&groups, outputs, left_out);
 }
 
 /// The columns that the thermal law could use.

@@ -2,14 +2,14 @@
 
 use crate::error::Error;
 use crate::law::calculix::CalculixConductance;
-use crate::law::conductance::ConductanceTables;
+use crate::law::conductance::pair::TablePair;
 use crate::law::radiation::{Emissivities, RadiationCoefficient, RadiationLaw};
 use crate::law::thermal::ThermalConductance;
 use crate::plan::reason::Reason;
 use crate::results::Along;
 use crate::table::{PiecewiseTable, Tail};
 use inpact_parser::grammar::Dialect;
-use inpact_parser::model::{GapConductance, GapRadiation, Interaction, Model, OptionKind, Table};
+use inpact_parser::model::{GapConductance, GapRadiation, Interaction, Model, OptionKind};
 
 /// The laws of heat in the rows of an interaction; an error where they form no table.
 #[derive(Debug, Default, PartialEq)]
@@ -25,15 +25,8 @@ pub(crate) struct ThermalTables {
 pub(crate) enum ConductanceRows {
     /// The conductance is that of a user subroutine.
     User,
-    /// There are no rows.
-    Nothing,
-    /// The tables of Abaqus, of which there is at least one.
-    Tables {
-        /// Against clearance.
-        clearance: Option<Result<PiecewiseTable, Error>>,
-        /// Against contact pressure.
-        pressure: Option<Result<PiecewiseTable, Error>>,
-    },
+    /// The tables of Abaqus; none where there are no rows, in either dialect.
+    Tables(TablePair),
     /// The curves of CalculiX.
     Calculix(Result<CalculixConductance, Error>),
 }
@@ -49,6 +42,17 @@ pub(crate) enum RadiationFault {
     BrokenTable(Error),
     /// There are no rows.
     NoRows,
+}
+
+impl ConductanceRows {
+    /// Why there is no law.
+    pub(crate) fn fault(&self) -> Option<Reason> {
+        match self {
+            Self::User => Some(Reason::NeedsUserSubroutine("GAPCON")),
+            Self::Tables(tables) => tables.fault(OptionKind::GapConductance.keyword()),
+            Self::Calculix(curves) => curves.as_ref().err().copied().map(Reason::BrokenCurves),
+        }
+    }
 }
 
 impl RadiationFault {
@@ -76,13 +80,7 @@ impl ThermalTables {
     /// The tables of conductance that can be evaluated, with the first of their variables.
     pub(crate) fn conductance_tables(&self) -> Vec<(Along, &PiecewiseTable)> {
         match &self.conductance {
-            Some(ConductanceRows::Tables { clearance, pressure }) => {
-                let tables = [(Along::Clearance, clearance), (Along::Pressure, pressure)];
-                tables
-                    .into_iter()
-                    .filter_map(|(against, table)| Some((against, table.as_ref()?.as_ref().ok()?)))
-                    .collect()
-            }
+            Some(ConductanceRows::Tables(tables)) => tables.tables().collect(),
             Some(ConductanceRows::Calculix(Ok(curves))) => vec![(Along::Pressure, curves.rows())],
             _ => Vec::new(),
         }
@@ -91,14 +89,9 @@ impl ThermalTables {
     /// The law of conductance, where all its tables can be evaluated.
     pub(crate) fn thermal_conductance(&self) -> Option<ThermalConductance> {
         match self.conductance.as_ref()? {
-            ConductanceRows::User | ConductanceRows::Nothing => None,
+            ConductanceRows::User => None,
             ConductanceRows::Calculix(curves) => Some(ThermalConductance::Calculix(curves.as_ref().ok()?.clone())),
-            ConductanceRows::Tables { clearance, pressure } => {
-                let table = |table: &Option<Result<PiecewiseTable, Error>>| {
-                    table.as_ref().and_then(|table| table.as_ref().ok()).cloned()
-                };
-                ConductanceTables::of(table(clearance), table(pressure)).map(ThermalConductance::Tables)
-            }
+            ConductanceRows::Tables(tables) => tables.conductance().map(ThermalConductance::Tables),
         }
     }
 }
@@ -111,14 +104,10 @@ fn conductance(given: &GapConductance<'_>, dialect: Dialect) -> ConductanceRows 
         // Of two tables the later one is in force.
         let curves = given.tables.last().filter(|table| table.width() == CalculixConductance::WIDTH);
         let curves = curves.map(|table| CalculixConductance::from_rows(&table.values));
-        return curves.map_or(ConductanceRows::Nothing, ConductanceRows::Calculix);
+        return curves.map_or_else(|| ConductanceRows::Tables(TablePair::default()), ConductanceRows::Calculix);
     }
-    let build = |table: &Table, tail| PiecewiseTable::from_rows(&table.values, table.width(), tail);
     // Beyond the last clearance nothing is conducted, whatever the choice for current (K-31, Q-1).
-    let clearance = given.clearance().map(|table| build(table, Tail::Zero));
-    let pressure = given.pressure().map(|table| build(table, Tail::Constant));
-    let is_empty = clearance.is_none() && pressure.is_none();
-    if is_empty { ConductanceRows::Nothing } else { ConductanceRows::Tables { clearance, pressure } }
+    ConductanceRows::Tables(TablePair::of((given.clearance(), Tail::Zero), given.pressure()))
 }
 
 /// The law of the rows: the emissivities, then view factors and clearances (2.6).

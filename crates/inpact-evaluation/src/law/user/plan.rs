@@ -8,7 +8,7 @@ use crate::nodes::{Column, Header, Part, coordinates};
 use crate::plan::law_columns::columns_of;
 use crate::plan::planner::Planner;
 use crate::plan::reason::Missing;
-use crate::plan::source::{Source, cell, whole_or_sides};
+use crate::plan::source::Source;
 use crate::results::Along;
 use inpact_parser::model::{Model, Name, Reference};
 use std::collections::BTreeSet;
@@ -50,8 +50,7 @@ pub(crate) fn want_user(header: &Header, wanted: &mut BTreeSet<Column>) {
 
 /// Plans the calls of an interaction's routine.
 pub(crate) fn plan_user(planner: Planner<'_>, notes: &mut Vec<String>) -> Result<UserPlan, Missing> {
-    let presence = |column| planner.presence(column);
-    cell(Column::Clearance, presence)?;
+    planner.cell(Column::Clearance)?;
     let pair = |along| {
         let columns = columns_of(along).unwrap_or([Column::Clearance; 3]);
         sides_or_whole(columns, planner)
@@ -61,7 +60,7 @@ pub(crate) fn plan_user(planner: Planner<'_>, notes: &mut Vec<String>) -> Result
         (1..).map_while(|number| pair(Along::FieldVariable(number)).ok()).collect();
     note_fields_after_a_gap(planner, field_variables.len(), notes);
     let (others, lacking): (Vec<Column>, Vec<Column>) =
-        with_default().partition(|column| presence(*column).has_numbers());
+        with_default().partition(|column| planner.presence(*column).has_numbers());
     note_defaults(planner, &lacking, notes);
     let names = user_names(planner.model, &planner.interaction.name, notes);
     Ok(UserPlan { names, temperatures, field_variables, others })
@@ -69,11 +68,9 @@ pub(crate) fn plan_user(planner: Planner<'_>, notes: &mut Vec<String>) -> Result
 
 /// The two sides of a quantity; where a row lacks one of them, the column of both sides.
 fn sides_or_whole(columns: [Column; 3], planner: Planner<'_>) -> Result<Source<Column>, Missing> {
-    let presence = |column| planner.presence(column);
     let [whole, slave, master] = columns;
-    let has = |column| presence(column).has_numbers();
-    match whole_or_sides(columns, presence)? {
-        Source::Cell(_) if has(slave) && has(master) => Ok(Source::CellOrSides(whole, slave, master)),
+    match planner.whole_or_sides(columns)? {
+        Source::Cell(_) if planner.all_of([slave, master]).is_ok() => Ok(Source::CellOrSides(whole, slave, master)),
         source => Ok(source),
     }
 }
