@@ -27,7 +27,7 @@ pub(crate) mod evaluable;
 pub(crate) mod findings;
 pub(crate) mod job_results;
 mod joule_heat;
-mod laws;
+pub(crate) mod laws;
 pub(crate) mod mesh_rows;
 pub(crate) mod meshed;
 mod node_sample;

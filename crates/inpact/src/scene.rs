@@ -1,12 +1,12 @@
 //! Scenes: nodes, bulk conductances and the interfaces of a deck that couple them.
 
 use crate::commands::findings::Collected;
+use crate::commands::laws::LawArguments;
 use crate::commands::solvable::{Ended, SolvableScene};
 use crate::error::Error;
 use crate::settings::ReadOptions;
 use crate::threads::with_threads;
 use inpact_diagnostics::Diagnostic;
-use inpact_evaluation::plan::Choices;
 use inpact_network::linear::{LAST_DIGIT, Method};
 use inpact_network::scene::Field;
 use inpact_network::transient;
@@ -83,8 +83,7 @@ impl Scene {
     pub fn read(path: impl AsRef<Path>, options: &ReadOptions) -> Result<Self, Error> {
         let path = path.as_ref();
         let mut collected = Collected::default();
-        let laws = |_: &_, dialect, regime| Ok(Choices { dialect, regime, ..Choices::default() });
-        match SolvableScene::read(path, &laws, options, &mut collected)? {
+        match SolvableScene::read(path, &LawArguments::default(), options, &mut collected)? {
             Some(solvable) => Ok(Self { solvable, findings: collected.0 }),
             None => Err(Error::of_first(&format!("`{}` has errors", path.display()), collected.0)),
         }

@@ -13,7 +13,7 @@ use inpact_parser::grammar::Dialect;
 use inpact_parser::model::{Model, Regime};
 use std::path::PathBuf;
 
-#[derive(Debug, Args)]
+#[derive(Debug, Default, Args)]
 pub(crate) struct LawArguments {
     /// What follows the last point of conductance against clearance: the manual's text or its figure.
     #[arg(long, value_parser = one_of(&TAILS), default_value = "constant")]

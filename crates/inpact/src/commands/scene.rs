@@ -174,7 +174,8 @@ fn make(
     let areas: Vec<Option<f64>> =
         interfaces.pairs.iter().map(|pair| joint_area(arguments, &terminals, &interfaces, pair)).collect();
     text.interfaces(&interfaces, &areas);
-    let mut lumping = Lumping::new(&terminals, &lumped, &heats);
+    let choices = Choices { dialect: settings.grammar.dialect(), ..Choices::default() };
+    let mut lumping = Lumping::new((&terminals, &interfaces), (model, choices), (&lumped, &heats));
     for (pair, area) in interfaces.pairs.iter().zip(areas) {
         let Some((of, area)) = interfaces.lumped(pair).zip(area) else {
             let message = format!(
@@ -184,8 +185,7 @@ fn make(
             notes.push(MeshNote { span: pair.span, message });
             continue;
         };
-        let choices = Choices { dialect: settings.grammar.dialect(), ..Choices::default() };
-        lumping.joint((model, &choices), &interfaces, &terminals, (pair, &of, area));
+        lumping.joint(pair, &of, area);
         let title = format!("`{}` on `{}`:", pair.slave, pair.master);
         lumping.lines.extend(std::iter::once(title).chain(lumped_lines(&interfaces, &of)));
         if !pair.beside.is_empty() {

@@ -4,6 +4,7 @@ mod deck_conditions;
 mod failures;
 
 use super::findings::Reporter;
+use super::laws::LawArguments;
 use super::meshed::MeshedDeck;
 use crate::failure::Failure;
 use crate::files;
@@ -15,7 +16,7 @@ use inpact_evaluation::plan::{Choices, Currents};
 use inpact_network::scene::{self, Field, Scene, SceneFiles};
 use inpact_network::{Error, Problem, report_unknown_interactions};
 use inpact_parser::deck::Keep;
-use inpact_parser::grammar::{Dialect, Grammar};
+use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{Model, Name, Regime};
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -45,14 +46,11 @@ impl<T> From<Error> for Ended<T> {
     }
 }
 
-/// Choices about the laws of a deck in its regime.
-pub(crate) type LawChoices<'a> = &'a dyn Fn(&Model, Dialect, Option<Regime>) -> Result<Choices, Failure>;
-
 impl SolvableScene {
     /// Reads a scene and its deck; `None` after reporting their faults.
     pub(crate) fn read(
         path: &Path,
-        laws: LawChoices<'_>,
+        laws: &LawArguments,
         reading: &ReadOptions,
         reporter: &mut impl Reporter,
     ) -> Result<Option<Self>, Failure> {
@@ -115,7 +113,7 @@ impl SolvableScene {
                     step.map(|step| (parts, step))
                 })?;
                 if step.is_some() {
-                    deck_conditions::take(&mut scene, &meshed, &surfaces, &meshed.read.model, &mut findings)?;
+                    deck_conditions::take(&mut scene, &meshed, &surfaces, &mut findings)?;
                 }
                 if reporter.data(quote(findings.into_list()), &settings) {
                     reporter.files(&meshed.read.places);
@@ -128,7 +126,7 @@ impl SolvableScene {
         let found = read.check(&of_deck);
         let ReadDeck { deck, model, .. } = read;
         let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
-        let choices = choices_of(&scene, laws(&model, grammar.dialect(), Some(regime))?);
+        let choices = choices_of(&scene, laws.choices(&model, grammar.dialect(), Some(regime))?);
         let only = model.interactions.keys().next().filter(|_| model.interactions.len() == 1);
         let names = scene.interfaces.iter().filter_map(|interface| interface.interaction.as_ref().or(only));
         let names: Vec<&Name> = names.collect::<HashSet<_>>().into_iter().collect();

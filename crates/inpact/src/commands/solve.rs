@@ -80,9 +80,8 @@ fn run_on_threads(arguments: &SolveArguments, mut messages: Messages<'_>) -> Res
     let start = Instant::now();
     let targets = [arguments.output.as_deref(), arguments.interfaces.as_deref(), arguments.links.as_deref()];
     files::check_targets(&targets)?;
-    let laws = |model: &_, dialect, regime| arguments.laws.choices(model, dialect, regime);
     let reading = arguments.reading.options();
-    let prepared = SolvableScene::read(&arguments.scene, &laws, &reading, &mut messages)?;
+    let prepared = SolvableScene::read(&arguments.scene, &arguments.laws, &reading, &mut messages)?;
     let Some(prepared) = prepared else { return Ok(Outcome::HasErrors) };
     // The input files of the scene are known now.
     files::check_targets(&targets)?;

@@ -77,9 +77,8 @@ pub(super) fn check<'a>(path: &'a Path, arguments: &CheckArguments) -> Result<Ch
         places: Vec::new(),
         remarks: Vec::new(),
     };
-    let laws = |model: &_, dialect, regime| arguments.laws.choices(model, dialect, regime);
     let reading = arguments.reading.options();
-    if let Some(scene) = SolvableScene::read(path, &laws, &reading, &mut judge)?
+    if let Some(scene) = SolvableScene::read(path, &arguments.laws, &reading, &mut judge)?
         && let Some(problem) = scene.problem(&mut judge)
     {
         for failure in problem.certain_failures() {

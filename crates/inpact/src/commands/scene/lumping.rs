@@ -17,7 +17,11 @@ use inpact_evaluation::results::rounded_up;
 use inpact_network::scene::Field;
 use inpact_parser::model::Model;
 
-pub(super) struct Lumping {
+pub(super) struct Lumping<'a> {
+    terminals: &'a [Terminal],
+    interfaces: &'a Interfaces,
+    model: &'a Model,
+    choices: Choices,
     pub(super) lines: Vec<String>,
     /// The largest relative error so far; `None` where one has no bound.
     worst: Option<f64>,
@@ -27,10 +31,14 @@ pub(super) struct Lumping {
     is_heated: bool,
 }
 
-impl Lumping {
-    pub(super) fn new(terminals: &[Terminal], lumped: &[Lumped], heats: &JouleHeats) -> Self {
-        let is_heated = heats.is_any();
-        let mut lumping = Self { lines: Vec::new(), worst: Some(0.0), unknown: Vec::new(), is_heated };
+impl<'a> Lumping<'a> {
+    pub(super) fn new(
+        (terminals, interfaces): (&'a [Terminal], &'a Interfaces),
+        (model, choices): (&'a Model, Choices),
+        (lumped, heats): (&[Lumped], &JouleHeats),
+    ) -> Self {
+        let (lines, worst, unknown, is_heated) = (Vec::new(), Some(0.0), Vec::new(), heats.is_any());
+        let mut lumping = Self { terminals, interfaces, model, choices, lines, worst, unknown, is_heated };
         for of in lumped {
             let key = network_field(of.field).conductance_key();
             for (terminal, summary) in terminals.iter().zip(&of.terminals) {
@@ -71,27 +79,16 @@ impl Lumping {
     }
 
     /// Adds the error of a joint with one pressure, one clearance and an area.
-    pub(super) fn joint(
-        &mut self,
-        (model, choices): (&Model, &Choices),
-        interfaces: &Interfaces,
-        terminals: &[Terminal],
-        (pair, lumped, area): (&PairInterfaces, &LumpedPair, f64),
-    ) {
-        let of_area = self.areas(terminals, (pair, area));
-        let varying = self.varying(model, choices, interfaces, (pair, lumped));
+    pub(super) fn joint(&mut self, pair: &PairInterfaces, lumped: &LumpedPair, area: f64) {
+        let of_area = self.areas(pair, area);
+        let varying = self.varying(pair, lumped);
         // Both belong to one conductance.
         self.costs(of_area + varying + of_area * varying);
     }
 
     /// The error of one pressure and one clearance; 0 where it is unknown, which is reported.
-    fn varying(
-        &mut self,
-        model: &Model,
-        choices: &Choices,
-        interfaces: &Interfaces,
-        (pair, lumped): (&PairInterfaces, &LumpedPair),
-    ) -> f64 {
+    fn varying(&mut self, pair: &PairInterfaces, lumped: &LumpedPair) -> f64 {
+        let Self { interfaces, model, choices, .. } = self;
         let Some(interaction) = model.interactions.get(&pair.interaction) else { return 0.0 };
         let laws = InterfaceLaws::of(model, interaction, choices);
         let Some(thermal) = &laws.thermal else { return 0.0 };
@@ -138,10 +135,10 @@ impl Lumping {
     }
 
     /// The error of the area of a joint, by the opposite parts of both surfaces.
-    fn areas(&mut self, terminals: &[Terminal], (pair, area): (&PairInterfaces, f64)) -> f64 {
+    fn areas(&mut self, pair: &PairInterfaces, area: f64) -> f64 {
         let mut largest = 0.0_f64;
         for name in [&pair.slave, &pair.master] {
-            let Some(terminal) = terminals.iter().find(|terminal| terminal.name == *name) else { continue };
+            let Some(terminal) = self.terminals.iter().find(|terminal| terminal.name == *name) else { continue };
             if terminal.meets_several() {
                 continue;
             }
@@ -167,7 +164,7 @@ impl Lumping {
 
     /// The lines, and their total.
     pub(super) fn finish(self) -> Vec<String> {
-        let Self { mut lines, worst, unknown, is_heated } = self;
+        let Self { mut lines, worst, unknown, is_heated, .. } = self;
         let mut beside = Vec::new();
         if !unknown.is_empty() {
             beside.push(format!(

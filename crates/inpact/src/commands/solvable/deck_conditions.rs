@@ -8,7 +8,7 @@ use inpact_network::scene::{
     CONDITION_LEFT_OUT, ConditionsOfDeck, Field, NOT_ONE_CONDITION, NodePart, PartKind, Scene, SceneLink, UNKNOWN_PART,
 };
 use inpact_parser::mesh::Target;
-use inpact_parser::model::{Model, Reference, Regime};
+use inpact_parser::model::{Reference, Regime};
 use inpact_parser::span::{SourceId, Span};
 use std::collections::BTreeSet;
 
@@ -46,12 +46,11 @@ pub(super) fn take(
     scene: &mut Scene,
     meshed: &MeshedDeck,
     places: &[Option<usize>],
-    model: &Model,
     findings: &mut Findings,
 ) -> Result<(), Failure> {
     let regime = if scene.is_transient() { Regime::Transient } else { Regime::SteadyState };
     let conditions = &meshed.conditions;
-    let mut taker = Taker::new(&meshed.mesh, conditions, StepTime::of(model, conditions.step, regime));
+    let mut taker = Taker::new(&meshed.mesh, conditions, StepTime::of(&meshed.read.model, conditions.step, regime));
     let at = |span: Span| meshed.line_of(span);
     let parts: Vec<(u32, NodePart)> = scene.parts.iter().map(|(node, part)| (*node, part.clone())).collect();
     let mut seen: BTreeSet<(bool, &str)> = BTreeSet::new();

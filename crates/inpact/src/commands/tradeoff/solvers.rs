@@ -24,8 +24,7 @@ pub(super) fn measured(path: &Path, arguments: &TradeoffArguments) -> Result<Opt
 
 fn measured_on_threads(path: &Path, arguments: &TradeoffArguments) -> Result<Option<Shown>, Failure> {
     let mut messages = arguments.format.messages();
-    let laws = |model: &_, dialect, regime| arguments.laws.choices(model, dialect, regime);
-    let prepared = SolvableScene::read(path, &laws, &arguments.reading.options(), &mut messages)?;
+    let prepared = SolvableScene::read(path, &arguments.laws, &arguments.reading.options(), &mut messages)?;
     let Some(prepared) = prepared else { return Ok(None) };
     // The files that the scene is made from are known now.
     files::check_targets(&arguments.targets())?;
