@@ -42,23 +42,16 @@ pub(crate) struct SolveArguments {
     /// Give the flow through each link as well: after the state, or with =FILE in a table of its own.
     #[arg(long, value_name = "FILE", num_args = 0..=1, require_equals = true, default_missing_value = STANDARD_STREAM)]
     links: Option<PathBuf>,
-    #[command(flatten)]
-    solver: SolverArguments,
-    #[command(flatten)]
-    laws: LawArguments,
-    #[command(flatten)]
-    reading: DeckArguments,
-}
-
-/// Options of solvers.
-#[derive(Debug, Clone, Copy, Args)]
-struct SolverArguments {
     /// How linear equations are solved.
     #[arg(long, value_parser = one_of(&SOLVERS), default_value = "direct")]
     solver: Method,
     /// The relative error of a flow that is acceptable; a solver that does not reach it is replaced by the next safer one [default: the last digit].
     #[arg(long, value_name = "X", value_parser = tolerance)]
     tolerance: Option<f64>,
+    #[command(flatten)]
+    laws: LawArguments,
+    #[command(flatten)]
+    reading: DeckArguments,
 }
 
 const SOLVERS: [Choice<Method>; 3] = [
@@ -86,9 +79,9 @@ fn run_on_threads(arguments: &SolveArguments, mut messages: Messages<'_>) -> Res
     // The input files of the scene are known now.
     files::check_targets(&targets)?;
     let Some(problem) = prepared.problem(&mut messages) else { return Ok(Outcome::HasErrors) };
-    let method = arguments.solver.solver;
+    let method = arguments.solver;
     let histories = if arguments.interfaces.is_some() { Histories::Wanted } else { Histories::NotWanted };
-    let tolerance = arguments.solver.tolerance.unwrap_or(LAST_DIGIT);
+    let tolerance = arguments.tolerance.unwrap_or(LAST_DIGIT);
     let mut equations = Equations::new(&problem, method, tolerance).with(histories);
     let mut outputs = Outputs::create(arguments, &prepared, &problem)?;
     let mut last: Option<State> = None;

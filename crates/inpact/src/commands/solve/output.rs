@@ -73,10 +73,10 @@ impl<'a> Outputs<'a> {
             times,
             states: ResultFile::create(arguments.output.as_deref())?,
             appended_links: links.filter(|links| is_appended(links)).map(|_| Vec::new()),
-            link_file: match links.filter(|links| !is_appended(links)) {
-                Some(target) => Some(ResultFile::create(Some(target))?),
-                None => None,
-            },
+            link_file: links
+                .filter(|links| !is_appended(links))
+                .map(|target| ResultFile::create(Some(target)))
+                .transpose()?,
             interfaces: arguments.interfaces.clone().map(|target| {
                 let table = InterfaceTable::new(problem, &prepared.model);
                 let mut rows = kept_rows();
