@@ -51,6 +51,16 @@ pub(crate) fn fold_and_choose(
     plan.form = Some(form);
 }
 
+/// The sources of variables that a table still reads once it is folded; the first is the variable of axis `first`.
+pub(crate) fn still_read(
+    variables: Vec<Option<Source<Column>>>,
+    tables: &[TablePlan],
+    first: usize,
+) -> Vec<Option<Source<Column>>> {
+    let is_read = |axis: usize| tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
+    (first..).zip(variables).map(|(axis, source)| source.filter(|_| is_read(axis))).collect()
+}
+
 /// The method of a table.
 fn form_plan(table: &PiecewiseTable, wanted: Wanted) -> FormPlan {
     let choice = choose(table, wanted);

@@ -1,6 +1,7 @@
 //! Sources of the plan of an interaction, and the decisions that its laws share.
 
 use super::choices::{Choices, Derivatives};
+use super::law_columns::columns_of;
 use super::reason::{LeftOut, Missing, Reason};
 use super::source::{Presence, Source};
 use super::surveyed::{InteractionSurvey, Survey};
@@ -105,6 +106,22 @@ impl Planner<'_> {
             (Presence::Empty | Presence::Absent, Ok(_)) => Ok(Source::Sides(slave, master)),
             (Presence::Empty | Presence::Absent, Err(missing)) => Err(missing.or(whole)),
         }
+    }
+
+    /// The sources of the variables of tables from axis `first` on; `None` where no table depends on one.
+    pub(crate) fn sources(
+        self,
+        tables: &[&PiecewiseTable],
+        first: usize,
+        along: impl Fn(usize) -> Along,
+    ) -> Result<Vec<Option<Source<Column>>>, Missing> {
+        let count = tables.iter().map(|table| table.axis_count()).max().unwrap_or(first);
+        let sources = (first..count).map(|axis| {
+            let is_needed = tables.iter().any(|table| matters(table, axis));
+            let columns = columns_of(along(axis)).filter(|_| is_needed);
+            columns.map(|columns| self.whole_or_sides(columns)).transpose()
+        });
+        sources.collect()
     }
 
     /// Refuses rows that nothing tells the contact of.

@@ -4,15 +4,15 @@ use crate::law::conductance::pair::TablePair;
 use crate::law::heat::HeatGeneration;
 use crate::law::user::plan::{UserPlan, plan_user};
 use crate::nodes::{Column, Part};
-use crate::plan::folding::{fold_and_choose, table_plan};
-use crate::plan::law_columns::{columns_of, want_of_any_law, want_variables};
+use crate::plan::folding::{fold_and_choose, still_read, table_plan};
+use crate::plan::law_columns::{want_of_any_law, want_variables};
 use crate::plan::output_groups::{ELECTRICAL_FLOWS, SUMS_OF_HEAT};
 use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use crate::plan::regime::regime;
 use crate::plan::source::Source;
-use crate::plan::tables::{InteractionTables, electrical_axis, matters};
-use crate::plan::{AxisPlan, Choices, Derivatives, Dropped, History, RegimeInForce, TablePlan};
+use crate::plan::tables::{InteractionTables, electrical_axis};
+use crate::plan::{Choices, Derivatives, Dropped, History, RegimeInForce, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::model::{ElectricalConductance, OptionKind, Procedure};
@@ -126,9 +126,7 @@ fn plan_tables(
             _ => planner.constant_of(variables[variable_index(along)?]?),
         });
     }
-    let is_read = |axis: usize| plan.tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
-    let variables = variables.into_iter().enumerate();
-    plan.variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 1))).collect();
+    plan.variables = still_read(variables, &plan.tables, 1);
     Ok(())
 }
 
@@ -138,13 +136,8 @@ fn sources(planner: Planner<'_>, used: &[(Along, &PiecewiseTable)]) -> Result<Ve
     for (against, table) in used {
         planner.check_abscissa(*against, table)?;
     }
-    let count = used.iter().map(|(_, table)| table.axis_count()).max().unwrap_or(1);
-    let sources = (1..count).map(|axis| {
-        let is_needed = used.iter().any(|(_, table)| matters(table, axis));
-        let columns = columns_of(electrical_axis(Along::Clearance, axis)).filter(|_| is_needed);
-        columns.map(|columns| planner.whole_or_sides(columns)).transpose()
-    });
-    sources.collect()
+    let tables: Vec<&PiecewiseTable> = used.iter().map(|(_, table)| *table).collect();
+    planner.sources(&tables, 1, |axis| electrical_axis(Along::Clearance, axis))
 }
 
 /// Plans current and heat, their integrals and their products with the area.

@@ -2,14 +2,14 @@
 
 use crate::law::pore::Cutoffs;
 use crate::nodes::{Column, Part};
-use crate::plan::folding::{fold_and_choose, table_plan};
-use crate::plan::law_columns::{columns_of, want_of_any_law, want_variables};
+use crate::plan::folding::{fold_and_choose, still_read, table_plan};
+use crate::plan::law_columns::{want_of_any_law, want_variables};
 use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use crate::plan::regime::regime;
 use crate::plan::source::Source;
 use crate::plan::tables::{InteractionTables, matters, pore_axis};
-use crate::plan::{AxisPlan, Choices, Derivatives, History, RegimeInForce, TablePlan};
+use crate::plan::{Choices, Derivatives, History, RegimeInForce, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::model::{Interaction, Model, Procedure, Regime};
@@ -140,10 +140,7 @@ pub(crate) fn plan_pore(
             Along::Clearance | Along::MassFlow => None,
         });
     }
-    let is_read =
-        |axis: usize| table_plan.as_ref().is_some_and(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
-    let variables = variables.into_iter().enumerate();
-    let variables = variables.map(|(index, source)| source.filter(|_| is_read(index + 2))).collect();
+    let variables = still_read(variables, table_plan.as_slice(), 2);
     let mut plan = PorePlan {
         table: table_plan,
         cutoffs,
@@ -171,11 +168,7 @@ fn sources(planner: Planner<'_>, table: Option<&PiecewiseTable>) -> Result<Vec<O
     if matters(table, 0) && !planner.never(planner.of.closed) {
         planner.cell(Column::Pressure)?;
     }
-    let sources = (2..table.axis_count()).map(|axis| {
-        let columns = columns_of(pore_axis(axis)).filter(|_| matters(table, axis));
-        columns.map(|columns| planner.whole_or_sides(columns)).transpose()
-    });
-    sources.collect()
+    planner.sources(&[table], 2, pore_axis)
 }
 
 fn characteristic_length(planner: Planner<'_>, cutoffs: Cutoffs, is_transient: bool) -> CharacteristicLength {

@@ -2,13 +2,13 @@
 
 use crate::law::thermal::tables::{ThermalTables, thermal_axis};
 use crate::nodes::Column;
-use crate::plan::folding::{fold_and_choose, table_plan};
+use crate::plan::TablePlan;
+use crate::plan::folding::{fold_and_choose, still_read, table_plan};
 use crate::plan::law_columns::columns_of;
 use crate::plan::planner::{LeftOuts, Planner};
 use crate::plan::reason::{Missing, Reason};
 use crate::plan::source::Source;
 use crate::plan::tables::matters;
-use crate::plan::{AxisPlan, TablePlan};
 use crate::results::{Along, Output};
 use crate::table::PiecewiseTable;
 use inpact_parser::grammar::Dialect;
@@ -99,9 +99,7 @@ fn fold_conduction(planner: Planner<'_>, (tables, count): (&[&PiecewiseTable], u
             Along::MassFlow | Along::PorePressure => None,
         });
     }
-    let is_read = |axis: usize| plan.tables.iter().any(|table| table.axes.get(axis).is_some_and(AxisPlan::is_read));
-    let sources = plan.variables.iter().enumerate();
-    plan.variables = sources.map(|(index, source)| source.filter(|_| is_read(index + 1))).collect();
+    plan.variables = still_read(std::mem::take(&mut plan.variables), &plan.tables, 1);
 }
 
 /// One column is enough: the mean, or the rate of one side.
