@@ -120,9 +120,7 @@ impl NodeMap {
             Self::Instances { instances, slaves } => {
                 let named = region.set.as_ref().and_then(|set| {
                     let set = plain(set);
-                    instances.iter().find(|(name, _)| {
-                        set == *name || set.strip_suffix(name.as_str()).is_some_and(|before| before.ends_with('_'))
-                    })
+                    instances.iter().find(|(name, _)| ends_with_name(&set, name))
                 });
                 if let Some((_, nodes)) = named {
                     return nodes.get(&label).copied();
@@ -167,8 +165,13 @@ fn by_labels(labels: impl Iterator<Item = i64>) -> HashMap<i64, NodeId> {
 }
 
 /// A name in the spelling of result files.
-fn plain(name: &str) -> String {
+pub(super) fn plain(name: &str) -> String {
     name.to_ascii_uppercase().replace('.', "_").replace('"', "")
+}
+
+/// Whether a name in a result file is a name of the deck, alone or with the assembly and the instance before it; both as [`plain`] writes them.
+pub(super) fn ends_with_name(file: &str, deck: &str) -> bool {
+    file.strip_suffix(deck).is_some_and(|before| before.is_empty() || before.ends_with('_'))
 }
 
 /// The nodes of a surface.

@@ -2,6 +2,7 @@
 //!
 //! Abaqus writes names of surfaces in capitals, with the assembly and the instance before them: `ASSEMBLY_PLATE-1_TOP` for `Plate-1.Top`.
 
+use super::nodes::{ends_with_name, plain};
 use inpact_parser::mesh::Mesh;
 use inpact_parser::model::Name;
 use inpact_results::Region;
@@ -30,7 +31,7 @@ pub(super) enum Side {
 
 impl PairNames {
     pub(super) fn new(mesh: &Mesh) -> Self {
-        let name = |surface: usize| plain(&mesh.surfaces[surface].name);
+        let name = |surface: usize| plain(mesh.surfaces[surface].name.canonical());
         Self(mesh.pairs.iter().map(|pair| [name(pair.slave), name(pair.master)]).collect())
     }
 
@@ -59,11 +60,5 @@ impl PairNames {
 
 /// Whether a name in a result file is that of a surface of the deck.
 fn is(deck: &str, file: &str) -> bool {
-    let file = plain(&Name::new(file));
-    file == deck || file.strip_suffix(deck).is_some_and(|before| before.ends_with('_'))
-}
-
-/// A name in the spelling of result files.
-fn plain(name: &Name) -> String {
-    name.canonical().to_ascii_uppercase().replace('.', "_").replace('"', "")
+    ends_with_name(&plain(Name::new(file).canonical()), deck)
 }
