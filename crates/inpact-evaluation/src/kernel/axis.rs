@@ -3,12 +3,9 @@
 use std::ops::Range;
 
 use super::Search;
-use super::lanes::Lanes;
+use super::lanes::{BLOCK, Lanes};
 use super::search::{BISECTION, BITS, Breaks, GroupSearch, LINEAR};
 use crate::table::{Level, Sides};
-
-/// The block size in rows: small enough that the intermediate results of a block and the table fit in the L1 cache together.
-pub(super) const BLOCK: usize = 128;
 
 /// One axis: its groups and the search in them.
 #[derive(Clone, Debug)]

@@ -1,8 +1,9 @@
 //! Table lookups row by row, whose loads depend on each row's segment; the compiler does not vectorise them.
 
-use super::axis::BLOCK;
-use super::pieces::Piece;
-use super::search::Bucket;
+use super::pieces::{Bucket, Piece};
+
+/// The block size in rows: small enough that the intermediate results of a block and the table fit in the L1 cache together.
+pub(super) const BLOCK: usize = 128;
 
 /// Explicit vector operations of an instruction set, in addition to auto-vectorised loops.
 pub(crate) trait Lanes: Copy {

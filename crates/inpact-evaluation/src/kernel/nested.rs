@@ -9,8 +9,8 @@
 
 use std::ops::Range;
 
-use super::axis::{Axis, BLOCK, Found, Noted};
-use super::lanes::Lanes;
+use super::axis::{Axis, Found, Noted};
+use super::lanes::{BLOCK, Lanes};
 use super::pieces::{Piece, between_or_nan, halves, pieces};
 use super::{InstructionSet, Search, column_of};
 use crate::table::{Level, PiecewiseTable, Sides};

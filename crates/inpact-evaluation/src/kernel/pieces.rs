@@ -3,6 +3,7 @@
 //! [`crate::numbers::interpolate`] and [`crate::numbers::between`] start from the left end while `x - x0 <= x1 - x` and from the right end after that.
 //! Both differences are monotone in x as computed, so that there is one last x of the left half, found here by bisection over the bits of f64:
 //! at a query one search over the halves then gives segment and end together.
+//! Buckets, which `search` fills, name the piece at their left end.
 
 use std::hint::select_unpredictable;
 
@@ -44,6 +45,25 @@ impl Piece {
         let value = value + (offset * low + offset_error * high);
         // A branch would be mispredicted wherever queries at knots, or clamped to the ends, are mixed with others.
         select_unpredictable(x == near, base, value)
+    }
+}
+
+/// The piece at the left end of a bucket: where it ends and its index, side by side so that one load fetches both.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(16))]
+pub(crate) struct Bucket(pub(super) [f64; 2]);
+
+impl Bucket {
+    pub(super) fn new(end: f64, piece: u32) -> Self {
+        Self([end, f64::from_bits(u64::from(piece))])
+    }
+
+    /// The piece at `x`, if the bucket contains at most one break.
+    #[inline(always)]
+    #[expect(clippy::cast_possible_truncation, reason = "the low bits are the number")]
+    pub(super) fn piece_at(self, x: f64) -> u32 {
+        let [end, piece] = self.0;
+        piece.to_bits() as u32 + u32::from(x >= end)
     }
 }
 

@@ -5,7 +5,7 @@
 //! The keys of the breaks are computed by the same expression as those of the queries, so that its rounding cannot matter: it is monotone.
 
 use super::lanes::Lanes;
-use super::pieces::ordered;
+use super::pieces::{Bucket, ordered};
 
 /// The method by which a kernel finds the segments of rows in a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,25 +33,6 @@ pub(super) struct GroupSearch {
     buckets: Vec<Bucket>,
     /// For each piece where it ends, NaN for the last of a group.
     ends: Vec<f64>,
-}
-
-/// The piece at the left end of a bucket: where it ends and its index, side by side so that one load fetches both.
-#[derive(Clone, Copy, Debug)]
-#[repr(align(16))]
-pub(crate) struct Bucket(pub(super) [f64; 2]);
-
-impl Bucket {
-    fn new(end: f64, piece: u32) -> Self {
-        Self([end, f64::from_bits(u64::from(piece))])
-    }
-
-    /// The piece at `x`, if the bucket contains at most one break.
-    #[inline(always)]
-    #[expect(clippy::cast_possible_truncation, reason = "the low bits are the number")]
-    pub(super) fn piece_at(self, x: f64) -> u32 {
-        let [end, piece] = self.0;
-        piece.to_bits() as u32 + u32::from(x >= end)
-    }
 }
 
 /// One group: the starts of its pieces and buckets, and the parameters of its keys.

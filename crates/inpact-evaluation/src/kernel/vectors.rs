@@ -7,10 +7,8 @@ use std::arch::x86_64::{__m256d, _CMP_EQ_OQ, _CMP_GE_OQ, _MM_HINT_T0};
 use pulp::bytemuck::cast;
 use pulp::x86::V3;
 
-use super::axis::BLOCK;
-use super::lanes::{Lanes, Plain, fetch_from};
-use super::pieces::Piece;
-use super::search::Bucket;
+use super::lanes::{BLOCK, Lanes, Plain, fetch_from};
+use super::pieces::{Bucket, Piece};
 
 impl Lanes for V3 {
     #[inline(always)]
