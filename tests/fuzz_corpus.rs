@@ -14,7 +14,7 @@ use mutation::{Chance, files, project};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The most bytes of an input, so that none takes long.
-const MOST_BYTES: usize = 3000;
+const MAX_BYTES: usize = 3000;
 
 fn decks() -> Vec<Vec<u8>> {
     [files(&project().join("fuzz/seeds/decks"), "inp"), files(&project().join("decks"), "inp")].concat()
@@ -71,7 +71,7 @@ fn change(bytes: &mut Vec<u8>, seeds: &[Vec<u8>], tokens: &[Vec<u8>], chance: &m
             5 => drop(bytes.splice(at..end, chance.one_of(tokens).iter().copied())),
             _ => drop(bytes.splice(at..at, chance.one_of(tokens).iter().copied())),
         }
-        bytes.truncate(MOST_BYTES);
+        bytes.truncate(MAX_BYTES);
     }
 }
 

@@ -28,10 +28,10 @@ use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// The rounds in which safe fixes must have mended what they can.
-const MOST_ROUNDS: usize = 10;
+const MAX_ROUNDS: usize = 10;
 
 /// The most bytes of a changed deck, so that none takes long.
-const MOST_BYTES: usize = 4000;
+const MAX_BYTES: usize = 4000;
 
 static DIALECTS: LazyLock<[Grammar; 2]> =
     LazyLock::new(|| [Dialect::Abaqus, Dialect::Calculix].map(|dialect| Grammar::new(dialect, Release::NEWEST)));
@@ -145,7 +145,7 @@ fn changed(seeds: &[Vec<u8>], chance: &mut Chance) -> Vec<u8> {
     let mut lines: Vec<Vec<u8>> = Vec::new();
     if chance.below(3) > 0 {
         let seed = chance.one_of(seeds);
-        lines = seed[..seed.len().min(MOST_BYTES / 2)].split(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
+        lines = seed[..seed.len().min(MAX_BYTES / 2)].split(|byte| *byte == b'\n').map(<[u8]>::to_vec).collect();
         for _ in 0..chance.below(3) {
             let at = chance.below(lines.len());
             lines.remove(at);
@@ -183,7 +183,7 @@ fn changed(seeds: &[Vec<u8>], chance: &mut Chance) -> Vec<u8> {
     if chance.below(2) == 0 {
         deck.extend_from_slice(line_end);
     }
-    deck.truncate(MOST_BYTES);
+    deck.truncate(MAX_BYTES);
     deck
 }
 
@@ -234,7 +234,7 @@ fn safe_fixes_change_nothing(bytes: &[u8], grammar: &Grammar) {
     }
     let mut text = bytes.to_vec();
     for round in 0.. {
-        assert!(round < MOST_ROUNDS, "safe fixes go on after {MOST_ROUNDS} rounds");
+        assert!(round < MAX_ROUNDS, "safe fixes go on after {MAX_ROUNDS} rounds");
         let edits = safe_edits(&findings(&scan("deck", &text, grammar), grammar)).concat();
         if edits.is_empty() {
             break;

@@ -20,7 +20,7 @@ use std::path::PathBuf;
 use std::sync::LazyLock;
 
 /// The rounds in which safe fixes must have mended what they can.
-const MOST_ROUNDS: usize = 10;
+const MAX_ROUNDS: usize = 10;
 
 /// Both dialects, each in its newest release.
 static DIALECTS: LazyLock<[Grammar; 2]> =
@@ -99,7 +99,7 @@ pub fn check(bytes: &[u8]) {
         let mut text = bytes.to_vec();
         let before = said(&model::read(&scan("deck", &text, grammar), grammar).0);
         let mut fixed_all = false;
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..MAX_ROUNDS {
             let deck = scan("deck", &text, grammar);
             let edits: Vec<Edit> = safe_edits(&findings(&deck, grammar));
             fixed_all = edits.is_empty();
@@ -112,7 +112,7 @@ pub fn check(bytes: &[u8]) {
             let said = said(&model::read(&scan("deck", &text, grammar), grammar).0);
             assert!(said == before, "safe fixes change the model");
         }
-        assert!(fixed_all, "safe fixes go on after {MOST_ROUNDS} rounds");
+        assert!(fixed_all, "safe fixes go on after {MAX_ROUNDS} rounds");
     }
 }
 

@@ -14,7 +14,7 @@ use std::process::{Command, ExitStatus, Stdio};
 use structured::{Form, Kind};
 
 /// The most memory that a run may map, in KiB.
-const MOST_MEMORY: u64 = 1 << 20;
+const MAX_MEMORY: u64 = 1 << 20;
 
 const DECK: &str = "*SURFACE INTERACTION, NAME=A\n1.,\n*GAP ELECTRICAL CONDUCTANCE, PRESSURE\n1., 0.\n2., 1.\n\
                     *GAP CONDUCTANCE\n20., 0.\n10., 0.1\n*CONTACT PAIR, INTERACTION=A\nS1, M1\n";
@@ -230,7 +230,7 @@ fn by_chance(program: &Path, runs: &Runs, trials: u64, seed: u64) -> Report {
 fn limited(program: &Path, folder: &Path, arguments: &[&str]) -> Command {
     let mut command = if cfg!(unix) { Command::new("sh") } else { Command::new(program) };
     if cfg!(unix) {
-        command.args(["-c", &format!("ulimit -v {MOST_MEMORY} && exec \"$0\" \"$@\"")]).arg(program);
+        command.args(["-c", &format!("ulimit -v {MAX_MEMORY} && exec \"$0\" \"$@\"")]).arg(program);
     }
     command
         .args(arguments)

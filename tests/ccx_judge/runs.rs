@@ -136,10 +136,10 @@ fn contact(folder: &Folder, cubes: &Cubes, temperatures: [f64; 2]) -> Result<Con
 ///
 /// If only the outer faces are held, the temperatures of the contact follow from the balance of each face.
 fn heats(folder: &Folder, cubes: &Cubes) -> Result<[f64; 2], String> {
-    const MOST_ROUNDS: usize = 50;
+    const MAX_ROUNDS: usize = 50;
     let outer = cubes.temperatures;
     let mut temperatures = outer;
-    let mut rounds = if cubes.friction.is_some() { MOST_ROUNDS } else { 0 };
+    let mut rounds = if cubes.friction.is_some() { MAX_ROUNDS } else { 0 };
     loop {
         let Contact { heats: [low, high], conductance } = contact(folder, cubes, temperatures)?;
         let conducted = conductance * (temperatures[1] - temperatures[0]);

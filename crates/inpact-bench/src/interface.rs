@@ -14,7 +14,7 @@ pub const FIRST_TEMPERATURE: f64 = 300.0;
 /// The distance between the groups of a table, K.
 pub const TEMPERATURE_STEP: f64 = 100.0;
 /// No table has more groups than this, so that temperatures stay below the melting point of steel.
-const MOST_GROUPS: usize = 10;
+const MAX_GROUPS: usize = 10;
 
 /// A contact interface whose two conductance tables share their temperatures.
 ///
@@ -103,7 +103,7 @@ fn temperature(group: usize) -> f64 {
 ///
 /// Equal groups keep the tables regular, so that a check of the deck has nothing to note (rule T015).
 fn groups(rows: usize) -> usize {
-    (1..=(rows / 10).clamp(1, MOST_GROUPS)).rev().find(|groups| rows.is_multiple_of(*groups)).unwrap_or(1)
+    (1..=(rows / 10).clamp(1, MAX_GROUPS)).rev().find(|groups| rows.is_multiple_of(*groups)).unwrap_or(1)
 }
 
 /// `count` whole numbers, ascending from 0 by steps between `low` and `high`.

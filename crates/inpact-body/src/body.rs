@@ -12,7 +12,7 @@ use inpact_parser::span::Span;
 use std::io;
 
 /// The maximum number of names in a message.
-const MOST_NAMES: usize = 12;
+const MAX_NAMES: usize = 12;
 
 /// The bodies of a deck with their terminals.
 #[derive(Debug, Clone)]
@@ -181,7 +181,7 @@ fn undefined(name: &Name, known: &[Name]) -> String {
     if known.is_empty() {
         return format!("the deck has no surface and no node set `{name}`, nor any other");
     }
-    let shown: Vec<String> = known.iter().take(MOST_NAMES).map(|name| format!("`{name}`")).collect();
+    let shown: Vec<String> = known.iter().take(MAX_NAMES).map(|name| format!("`{name}`")).collect();
     let more = known.len() - shown.len();
     let more = if more == 0 { String::new() } else { format!(" and {more} more") };
     format!("the deck has no surface and no node set `{name}`: it has {}{more}", shown.join(", "))

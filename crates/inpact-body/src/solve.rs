@@ -12,7 +12,7 @@ use inpact_network::ErrorKind;
 use inpact_network::linear::NoSolution;
 
 /// Above this number of unknowns the matrix is factored only as a fallback.
-const MOST_FACTORED: usize = 20_000;
+const MAX_FACTORED: usize = 20_000;
 
 /// The largest acceptable imbalance of a node, relative to the flows through it and through all nodes.
 const LARGEST_IMBALANCE: f64 = 1e-9;
@@ -59,7 +59,7 @@ impl Equations<'_> {
         let entries = self.matrix.values.len();
         let mut method = SolutionMethod::Factor(0);
         let mut imbalance = f64::INFINITY;
-        if MOST_FACTORED < unknowns {
+        if MAX_FACTORED < unknowns {
             let begun = fields.to_vec();
             method = SolutionMethod::Iterations(gradients::solve(self, fields));
             imbalance = self.imbalance(fields);

@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 /// The maximum number of findings of one rule in one table; more are only counted.
-const MOST_OF_ONE_RULE: usize = 20;
+const MAX_OF_ONE_RULE: usize = 20;
 
 /// A place in a table or a scene as known to a reader; parts that do not apply are `None`.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -80,7 +80,7 @@ impl Findings {
     ) {
         let count = self.reported.entry(rule.code).or_default();
         *count += 1;
-        if *count > MOST_OF_ONE_RULE {
+        if *count > MAX_OF_ONE_RULE {
             return;
         }
         let mut found = Diagnostic::new(rule, message, place.label(&self.file));
@@ -103,7 +103,7 @@ impl Findings {
     /// The findings in the order they were reported; the last of a rule gives the number left out.
     pub fn into_list(mut self) -> Vec<Diagnostic> {
         for (code, count) in self.reported {
-            let Some(hidden) = count.checked_sub(MOST_OF_ONE_RULE).filter(|hidden| *hidden > 0) else { continue };
+            let Some(hidden) = count.checked_sub(MAX_OF_ONE_RULE).filter(|hidden| *hidden > 0) else { continue };
             if let Some(last) = self.kept.iter_mut().rfind(|found| found.code == code) {
                 let more = format!("{hidden} more findings of this rule in this table are not shown");
                 last.help = Some(last.help.take().map_or_else(|| more.clone(), |help| format!("{help}; {more}")));

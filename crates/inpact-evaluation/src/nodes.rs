@@ -46,7 +46,7 @@ pub use columnar::RecordBatches;
 pub use contract::{COLUMN_PAGES, ColumnPage};
 pub use header::{Header, HeaderCell};
 pub use inpact_diagnostics::{Findings, Place};
-pub use kept::{GivenBack, KeptRows, MakeSpillFile, SpillFile};
+pub use kept::{KeptRows, KeptRowsIter, MakeSpillFile, SpillFile};
 pub use made::MadeBatches;
 pub use node_index::HistoryOrder;
 pub(crate) use node_index::{HistorySlot, NodeIndex, NodeRuns};

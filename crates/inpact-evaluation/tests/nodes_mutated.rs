@@ -30,7 +30,7 @@ mod page;
 const ROWS: usize = 40;
 
 /// The most memory, in bytes, that the process may have had.
-const MOST_MEMORY: u64 = 512 << 20;
+const MAX_MEMORY: u64 = 512 << 20;
 
 /// Pseudo-random numbers (xorshift64*).
 struct Random(u64);
@@ -230,7 +230,7 @@ fn mutated_tables_give_rows_or_an_error() {
     }
     assert!(count / 20 < whole && count / 20 < unsound, "{whole} were read, {unsound} refused");
     let peak = peak_memory();
-    assert!(peak.is_none_or(|peak| peak < MOST_MEMORY), "{peak:?} bytes");
+    assert!(peak.is_none_or(|peak| peak < MAX_MEMORY), "{peak:?} bytes");
     if chosen.is_some() {
         record_figures(count, &samples, (whole, unsound), peak);
     }

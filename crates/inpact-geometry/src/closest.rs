@@ -17,10 +17,10 @@ const CUTS: u32 = 5;
 const STEPS: u32 = 60;
 
 /// The maximum number of rounds of pattern search where derivatives vanish.
-const MOST_TRIALS: u32 = 1000;
+const MAX_TRIALS: u32 = 1000;
 
 /// The maximum number of further starts where derivatives vanish.
-const MOST_ROUGH: usize = 32;
+const MAX_ROUGH: usize = 32;
 
 /// The distance from an edge (in ξ and η, of magnitude 1) within which a point is on it: the rounding of a clipped step.
 const ON_EDGE: f64 = 1e-14;
@@ -80,7 +80,7 @@ impl Patch {
         }
         // Where derivatives vanish, all starts close to the best are searched further, the nearest first.
         rough.sort_by(|a, b| a.1.total_cmp(&b.1));
-        for (place, distance) in rough.into_iter().take(MOST_ROUGH) {
+        for (place, distance) in rough.into_iter().take(MAX_ROUGH) {
             let Some((_, least)) = best.filter(|(_, least)| distance <= 1.01 * least) else { break };
             let (place, distance) = search.by_trial(place, distance);
             // Less than that is rounding, which a search would follow for half the digits of a point.
@@ -287,7 +287,7 @@ impl<'a> Search<'a> {
         let (mut place, mut distance) = (place, distance);
         let mut step = 4.0 / f64::from(1 << CUTS);
         let mut trials = 0;
-        while 1e-12 < step && trials < MOST_TRIALS {
+        while 1e-12 < step && trials < MAX_TRIALS {
             let tried = AROUND.map(|direction| {
                 let there = self.patch.shape.clamp(moved(place, step, direction));
                 (there, norm(self.to_point(there)))

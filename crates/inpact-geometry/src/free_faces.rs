@@ -72,7 +72,7 @@ struct Waiting {
 const WAYS: usize = 4;
 /// The minimum and maximum number of cache sets, powers of two; the maximum takes 8 MiB.
 const FEWEST_PLACES: usize = 1 << 6;
-const MOST_PLACES: usize = 1 << 16;
+const MAX_PLACES: usize = 1 << 16;
 
 /// A cache of recent faces. Neighbours are mostly close in order and number, so most faces are matched here, within the processor's cache.
 ///
@@ -119,7 +119,7 @@ impl Recent {
 
     /// Whether a larger cache would keep more faces.
     fn is_crowded(&self) -> bool {
-        self.places.len() < MOST_PLACES && self.places.len() < self.left
+        self.places.len() < MAX_PLACES && self.places.len() < self.left
     }
 
     fn faces(self) -> impl Iterator<Item = Waiting> {

@@ -1,6 +1,6 @@
 //! The error type of this crate.
 
-use crate::linear::{Method, NoSolution, Shortcoming};
+use crate::linear::{Method, MethodFailure, NoSolution};
 use crate::scene::Field;
 use inpact_evaluation::law::UserFault;
 use std::error;
@@ -54,7 +54,7 @@ pub enum ErrorKind {
     /// No linear solver came within the tolerance.
     NotSolved {
         /// The methods tried, each with the reason of its failure.
-        tried: Vec<(Method, Shortcoming)>,
+        tried: Vec<(Method, MethodFailure)>,
     },
     /// A factorisation or a solve with its factor failed.
     NotFactored(NoSolution),
@@ -127,7 +127,7 @@ impl Error {
         Self { field: Some(field), ..self }
     }
 
-    pub(crate) fn not_solved(tried: Vec<(Method, Shortcoming)>) -> Self {
+    pub(crate) fn not_solved(tried: Vec<(Method, MethodFailure)>) -> Self {
         ErrorKind::NotSolved { tried }.into()
     }
 

@@ -50,7 +50,7 @@ pub use network::{LinearNetwork, Link, Store};
 pub(crate) use ordering::Analysis;
 pub use ordering::Ordering;
 pub(crate) use relative::Form;
-pub use report::{LAST_DIGIT, LinearReport, Method, NoSolution, Quality, Reused, Shortcoming};
+pub use report::{LAST_DIGIT, LinearReport, Method, MethodFailure, NoSolution, Quality, Reused};
 pub(crate) use series::Series;
 pub(crate) use sets::{Sets, index};
 pub use solution::LinearSolution;

@@ -38,7 +38,7 @@ const MET: f64 = 1e-17;
 const GOOD_ENOUGH: f64 = 1e-10;
 
 /// The maximum number of steps.
-const MOST_STEPS: usize = 60;
+const MAX_STEPS: usize = 60;
 
 /// The number of unknowns from which a step is computed without factoring the whole matrix.
 const LARGE: usize = 20_000;
@@ -53,10 +53,10 @@ const GOING_BACK: f64 = 4.0;
 const AT_REST: f64 = 1e-6;
 
 /// The maximum number of steps of pseudo-transient continuation.
-const MOST_PSEUDO_TIME_STEPS: usize = 1000;
+const MAX_PSEUDO_TIME_STEPS: usize = 1000;
 
 /// The maximum number of halvings of a step.
-const MOST_HALVES: i32 = 12;
+const MAX_HALVES: i32 = 12;
 
 /// Result of an iteration.
 #[derive(Debug, Clone)]
@@ -125,7 +125,7 @@ impl<'a> Newton<'a> {
         let mut states = self.evaluate(knowledge)?;
         let mut best = f64::INFINITY;
         let mut idle = 0;
-        for step in 0..=MOST_STEPS {
+        for step in 0..=MAX_STEPS {
             let worst = self.worst(&states);
             if worst < 0.5 * best {
                 best = worst;
@@ -138,7 +138,7 @@ impl<'a> Newton<'a> {
                 let missing = newton.fields.iter().zip(states).map(|(of, at)| of.worst_node(at)).collect();
                 Iterated { steps: step, has_converged, missing }
             };
-            if is_met || step == MOST_STEPS || !worst.is_finite() {
+            if is_met || step == MAX_STEPS || !worst.is_finite() {
                 return Ok(end(is_met, self, &states));
             }
             let mut moved = None;
@@ -163,7 +163,7 @@ impl<'a> Newton<'a> {
         let mut states = self.evaluate(knowledge)?;
         let mut worst = self.worst(&states);
         let mut previous: Vec<f64> = Vec::new();
-        for step in 0..MOST_PSEUDO_TIME_STEPS {
+        for step in 0..MAX_PSEUDO_TIME_STEPS {
             if worst <= AT_REST || !worst.is_finite() {
                 return Ok(step);
             }
@@ -182,7 +182,7 @@ impl<'a> Newton<'a> {
             pseudo_capacity *= if goes_back { GOING_BACK } else { (worst / before).clamp(0.5, 2.0) };
             previous = direction;
         }
-        Ok(MOST_PSEUDO_TIME_STEPS)
+        Ok(MAX_PSEUDO_TIME_STEPS)
     }
 
     /// Balances the currents with the current conductances: they have no time scale of their own, and potentials of other conductances could give any heat. `None` where there are none.
@@ -269,7 +269,7 @@ impl<'a> Newton<'a> {
         };
         let (before, worst) = (merit(&self.fields, states), self.worst(states));
         let start = self.jumps();
-        for halves in 0..=MOST_HALVES {
+        for halves in 0..=MAX_HALVES {
             let part = 0.5_f64.powi(halves);
             self.go(&start, direction, part);
             let trial = self.evaluate(knowledge)?;

@@ -26,8 +26,8 @@ const MET: f64 = 1e-10;
 const DIGITS: f64 = 4.0;
 
 /// The maximum number of passes of fixed-point iteration, and of nodes in all of them together.
-const MOST_PASSES: usize = 2_000;
-const MOST_RELAXED_NODES: usize = 1_000_000;
+const MAX_PASSES: usize = 2_000;
+const MAX_RELAXED_NODES: usize = 1_000_000;
 
 /// The number of nodes from which factors are not kept for reuse.
 const LARGE: usize = 10_000;
@@ -287,7 +287,7 @@ impl<'a> Equations<'a> {
     /// Fixed-point iteration with the current conductances, relaxed at each node. Whether it converged.
     fn relax(&mut self, way: Relaxation, stage: &Stage, at: &mut At<'_>, steps: &mut usize) -> Result<bool, Error> {
         let unknowns: usize = stage.fields.iter().map(|field| self.problem.nodes_of(*field).len()).sum();
-        let passes = (MOST_RELAXED_NODES / unknowns.max(1)).min(MOST_PASSES);
+        let passes = (MAX_RELAXED_NODES / unknowns.max(1)).min(MAX_PASSES);
         let nodes = at.knowledge.temperatures.len();
         let mut walks = vec![Walk::default(); 2 * nodes];
         for _ in 0..passes {

@@ -4,7 +4,7 @@ mod linear_support;
 
 use inpact_evaluation::numbers::DoubleDouble;
 use inpact_network::ErrorKind;
-use inpact_network::linear::{LAST_DIGIT, LinearNetwork, Link, Method, Shortcoming, Store};
+use inpact_network::linear::{LAST_DIGIT, LinearNetwork, Link, Method, MethodFailure, Store};
 use linear_support::{METHODS, failure, jumps, network, rounded, solutions, solve};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -356,7 +356,7 @@ fn numbers_beyond_the_range_are_refused() {
         for method in METHODS {
             let failure = solve(network, method).expect_err("beyond the range");
             let ErrorKind::NotSolved { tried } = failure.kind() else { panic!("{failure:?}") };
-            assert_eq!(tried.last().map(|(_, why)| *why), Some(Shortcoming::Overflow), "{method:?}: {tried:?}");
+            assert_eq!(tried.last().map(|(_, why)| *why), Some(MethodFailure::Overflow), "{method:?}: {tried:?}");
         }
     };
     // A potential.
@@ -394,7 +394,7 @@ fn what_only_a_rough_factor_overflows_is_solved() {
         assert_eq!(rounded(&solution.values), [0.0, value, value], "{method:?}");
         assert_eq!(rounded(&solution.flows), [-half, -half, half], "{method:?}");
         if method == Method::Mixed {
-            assert_eq!(solution.report.given_up, [(Method::Mixed, Shortcoming::Overflow)]);
+            assert_eq!(solution.report.given_up, [(Method::Mixed, MethodFailure::Overflow)]);
         }
     }
 }

@@ -19,9 +19,9 @@ mod text;
 pub use data_line::items;
 pub use edited::{EditedText, TextInParts};
 pub(crate) use ends::RowEnds;
-pub use include::{FoundFile, Include, IncludeOutcome, IncludedFiles, MOST_FILES, most_levels};
+pub use include::{FoundFile, Include, IncludeOutcome, IncludedFiles, MAX_FILES, max_levels};
 pub use parameter::{Parameter, Resolved};
-pub(crate) use plain_row::{MOST_CELLS, plain_row};
+pub(crate) use plain_row::{MAX_CELLS, plain_row};
 pub use scan::{Keep, ScanOptions, Scanner, scan};
 pub use text::{Excerpts, Source};
 

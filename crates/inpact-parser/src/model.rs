@@ -20,7 +20,7 @@ pub use name::Name;
 pub use options::{Friction, GapConductance, GapRadiation, OptionKind};
 pub(crate) use print::named_in;
 pub use print::print;
-pub use read::{MOST_FIELD_VARIABLES, read, read_watched};
+pub use read::{MAX_FIELD_VARIABLES, read, read_watched};
 pub use row_places::RowPlaces;
 pub use table::{CellText, Table};
 pub use text::{SharedText, TextRows};

@@ -155,7 +155,7 @@ fn field_variables_without_end() {
         let (_, model, _) = read(format!("*SURFACE INTERACTION, NAME=A\n{option}").repeat(100).as_bytes());
         for interaction in model.all_interactions() {
             for found in interaction.tables() {
-                assert!(found.table.width() <= 3 + model::MOST_FIELD_VARIABLES, "{number}");
+                assert!(found.table.width() <= 3 + model::MAX_FIELD_VARIABLES, "{number}");
             }
         }
     }

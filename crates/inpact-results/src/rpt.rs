@@ -42,7 +42,7 @@ pub fn read_rpt(bytes: &[u8]) -> Read {
 }
 
 /// The maximum number of header lines above a table; more would cost their height times their width.
-const MOST_HEAD_LINES: usize = 16;
+const MAX_HEAD_LINES: usize = 16;
 
 struct Reader {
     results: Results,
@@ -63,13 +63,13 @@ impl Reader {
                 return Err(Problem::new(line.place, "the last line has no end", table::CUT));
             }
             if is_rule(line.text) {
-                let from = before.len().saturating_sub(MOST_HEAD_LINES);
+                let from = before.len().saturating_sub(MAX_HEAD_LINES);
                 self.field(lines, &before[from..])?;
                 before.clear();
             } else if line.is_blank() {
                 let begins_table =
                     before.first().is_some_and(|line| line.cells().next().is_some_and(|(_, cell)| cell == b"X"));
-                if begins_table && before.len() <= MOST_HEAD_LINES {
+                if begins_table && before.len() <= MAX_HEAD_LINES {
                     self.history(lines, &before)?;
                 }
                 before.clear();

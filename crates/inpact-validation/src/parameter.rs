@@ -7,7 +7,7 @@ use crate::rule::{Context, DefinedBlock};
 use inpact_parser::deck::{Parameter, Resolved};
 use inpact_parser::expression::substitute;
 use inpact_parser::grammar::{Dialect, Lookup, ParameterDefinition, ParameterKind};
-use inpact_parser::model::MOST_FIELD_VARIABLES;
+use inpact_parser::model::MAX_FIELD_VARIABLES;
 use inpact_parser::number::{NumberError, float_text, read_float, read_integer};
 use inpact_parser::span::Span;
 use std::borrow::Cow;
@@ -108,7 +108,7 @@ impl GivenParameter<'_> {
     /// Describes how a number lies outside its bounds, if it does.
     pub(crate) fn out_of_bounds(&self, number: f64) -> Option<String> {
         let counts_fields = self.definition.name == "DEPENDENCIES";
-        let most = if counts_fields { Some(MOST_FIELD_VARIABLES as f64) } else { self.definition.maximum };
+        let most = if counts_fields { Some(MAX_FIELD_VARIABLES as f64) } else { self.definition.maximum };
         let bound = |word: &str, bound: f64| format!("{word} {}", self.bound_text(bound));
         match (self.definition.minimum, most) {
             (Some(least), _) if number < least => Some(bound("below the least legal value", least)),

@@ -10,10 +10,10 @@ use inpact_parser::span::Span;
 use std::collections::HashMap;
 
 /// The maximum number of names of a deck that are compared for suggestions.
-const MOST_COMPARED: usize = 10_000;
+const MAX_COMPARED: usize = 10_000;
 
 /// The maximum number of findings of a rule with a suggestion, which takes a comparison with every name.
-const MOST_SUGGESTIONS: usize = 20;
+const MAX_SUGGESTIONS: usize = 20;
 
 /// The definitions of names of one kind.
 #[derive(Debug, Default)]
@@ -68,7 +68,7 @@ impl Definitions {
         if name.is_quoted() {
             self.quoted.entry(folded(&name)).or_insert_with(|| (name.clone(), span));
         }
-        if self.compared.len() < MOST_COMPARED {
+        if self.compared.len() < MAX_COMPARED {
             self.compared.push(name.written().to_owned());
         }
         self.by_name.entry(name).or_insert(span);
@@ -115,7 +115,7 @@ impl Definitions {
 
 /// Suggests a name with similar spelling, for the first findings of a rule.
 pub(crate) fn suggestion(definitions: &Definitions, name: &Name, finding: usize) -> Option<String> {
-    if finding >= MOST_SUGGESTIONS {
+    if finding >= MAX_SUGGESTIONS {
         return None;
     }
     let mut names = nearest_names(name.canonical().as_bytes(), definitions.compared.iter().map(String::as_str), 3);

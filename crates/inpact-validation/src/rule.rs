@@ -12,7 +12,7 @@ use std::cell::OnceCell;
 use std::collections::HashSet;
 
 /// The maximum number of findings of one rule in one deck; more are only counted.
-const MOST_OF_ONE_RULE: usize = 1000;
+const MAX_OF_ONE_RULE: usize = 1000;
 
 /// The check function of a rule.
 pub(crate) type Check = fn(&Context<'_>, &mut Report<'_>);
@@ -205,7 +205,7 @@ pub(crate) struct Report<'a> {
 
 impl<'a> Report<'a> {
     pub(crate) fn new(rule: &'static Rule, diagnostics: &'a mut Vec<Diagnostic>) -> Self {
-        Self { rule, diagnostics, reported: 0, most: MOST_OF_ONE_RULE, overflow: None }
+        Self { rule, diagnostics, reported: 0, most: MAX_OF_ONE_RULE, overflow: None }
     }
 
     /// Keeps every finding, for fixing instead of showing.

@@ -9,7 +9,7 @@ use inpact_parser::ProblemKind;
 use inpact_parser::deck::{Deck, KeywordLine};
 use inpact_parser::expression::{Parameters, substitute};
 use inpact_parser::grammar::{Grammar, RowShape};
-use inpact_parser::model::{MOST_FIELD_VARIABLES, Model, OptionKind, Table, TableOf};
+use inpact_parser::model::{MAX_FIELD_VARIABLES, Model, OptionKind, Table, TableOf};
 use inpact_parser::number::{read_float, read_integer};
 use inpact_parser::span::Span;
 use std::collections::HashSet;
@@ -47,7 +47,7 @@ pub(crate) fn columns_are_unclear(context: &Context<'_>, block: DefinedBlock<'_>
     let mut counts = given(block).filter(|given| given.definition.name == "DEPENDENCIES");
     let Some(count) = counts.next() else { return false };
     let number = count.value().and_then(|value| read_integer(context.value(value).as_bytes()).ok());
-    let fits = |number: i64| usize::try_from(number).is_ok_and(|number| number <= MOST_FIELD_VARIABLES);
+    let fits = |number: i64| usize::try_from(number).is_ok_and(|number| number <= MAX_FIELD_VARIABLES);
     counts.next().is_some() || !number.is_some_and(fits)
 }
 

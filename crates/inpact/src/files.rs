@@ -132,9 +132,9 @@ pub(crate) fn name_as_inputs<P: AsRef<Path>>(paths: &[P]) {
 /// A path that identifies a file, existing or not; links are resolved, including dangling ones.
 pub(crate) fn whole_path(path: &Path) -> PathBuf {
     /// More than any system resolves.
-    const MOST_LINKS: usize = 40;
+    const MAX_LINKS: usize = 40;
     let mut path = path.to_owned();
-    for _ in 0..MOST_LINKS {
+    for _ in 0..MAX_LINKS {
         if let Ok(whole) = path.canonicalize() {
             return whole;
         }

@@ -17,7 +17,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 /// The maximum number of rounds: a fix may reveal another finding, but not endlessly.
-const MOST_ROUNDS: usize = 10;
+const MAX_ROUNDS: usize = 10;
 
 /// The fixes to apply, and the files.
 #[derive(Debug, Clone, Default)]
@@ -100,7 +100,7 @@ pub(crate) fn mend(subjects: &mut [Subject<'_>], held: &HeldFiles, selection: &F
     let mut mended = Mended::default();
     let mut left: Vec<BTreeMap<PathBuf, Left>> = subjects.iter().map(|_| BTreeMap::new()).collect();
     let mut due: Vec<usize> = (0..subjects.len()).filter(|index| subjects[*index].need == Need::Mending).collect();
-    for round in 0..=MOST_ROUNDS {
+    for round in 0..=MAX_ROUNDS {
         let mut touched: BTreeSet<PathBuf> = BTreeSet::new();
         for index in due {
             let subject = &mut subjects[index];
@@ -115,11 +115,11 @@ pub(crate) fn mend(subjects: &mut [Subject<'_>], held: &HeldFiles, selection: &F
             let chosen = choose(&findings(&deck, subject.settings), &deck, (subject.path, &named), held, selection);
             let Chosen { edits, findings, left: left_here } = chosen;
             left[index] = left_here;
-            if round == MOST_ROUNDS {
+            if round == MAX_ROUNDS {
                 if !edits.is_empty() {
                     let name = subject.path.display();
                     mended.left.push(format!(
-                        "mending `{name}` brings up further findings after {MOST_ROUNDS} rounds: run it again"
+                        "mending `{name}` brings up further findings after {MAX_ROUNDS} rounds: run it again"
                     ));
                 }
                 continue;

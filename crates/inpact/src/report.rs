@@ -90,7 +90,7 @@ pub(crate) fn page_of_curves(figures: &[Figure]) -> String {
 }
 
 /// The maximum number of findings shown in full.
-const MOST_FINDINGS: usize = 200;
+const MAX_FINDINGS: usize = 200;
 
 impl Report<'_> {
     pub(crate) fn html(&self) -> String {
@@ -143,7 +143,7 @@ impl Report<'_> {
             page.element("p", &[], "None.");
         }
         let rows = interfaces::row_places(self.deck.model());
-        for (number, found) in self.findings.iter().take(MOST_FINDINGS).enumerate() {
+        for (number, found) in self.findings.iter().take(MAX_FINDINGS).enumerate() {
             let class = format!("finding {}", found.severity.name());
             let id = format!("finding-{}", number + 1);
             page.open("article", &[("class", &class), ("id", &id)]);
@@ -166,8 +166,8 @@ impl Report<'_> {
             }
             page.close("article");
         }
-        if MOST_FINDINGS < self.findings.len() {
-            let more = self.findings.len() - MOST_FINDINGS;
+        if MAX_FINDINGS < self.findings.len() {
+            let more = self.findings.len() - MAX_FINDINGS;
             page.element("p", &[], &format!("{more} more: see `inpact check`."));
         }
     }

@@ -84,7 +84,7 @@ fn serve<W: Write>(
             },
         };
         match next {
-            Incoming::Nonsense { id, code, reason } => client.refuse(id, code, reason)?,
+            Incoming::Malformed { id, code, reason } => client.refuse(id, code, reason)?,
             Incoming::Opening(notification, text) => {
                 if let State::Running(session) = &mut state {
                     session.open(notification, text, client)?;

@@ -160,7 +160,7 @@ impl History {
             last_time = time;
         };
         let rows = Rows { steps, shift, row: 0, random: Random::new(0x0e_cd70) };
-        let computed = if steps <= MOST_ROWS_OF_A_TABLE { rows.evaluate(record) } else { rows.integrate(record) };
+        let computed = if steps <= MAX_ROWS_OF_A_TABLE { rows.evaluate(record) } else { rows.integrate(record) };
         let exact = exact(CONDUCTANCE) * BigRational::new(sum, BigInt::one() << (53 + 62));
         Self { computed, plain, exact }
     }
@@ -170,7 +170,7 @@ impl History {
 const CONDUCTANCE: f64 = 0.1;
 
 /// Histories up to this number of steps are evaluated as rows of a node table.
-const MOST_ROWS_OF_A_TABLE: usize = 100_000;
+const MAX_ROWS_OF_A_TABLE: usize = 100_000;
 
 /// Rows of a batch; as many exact products of 105 bits have a sum below 2¹²⁷.
 const ROWS_OF_A_BLOCK: usize = 4096;

@@ -12,7 +12,7 @@ use super::Equations;
 const REDUCTION: f64 = 1e-12;
 
 /// The maximum number of iterations, beyond which the factor is cheaper.
-const MOST_ITERATIONS: usize = 5_000;
+const MAX_ITERATIONS: usize = 5_000;
 
 /// Solves as far as possible, and returns the number of iterations.
 pub(super) fn solve(equations: &Equations<'_>, fields: &mut [Vec<f64>]) -> usize {
@@ -108,7 +108,7 @@ impl<'a> Scaled<'a> {
         let mut squares = products(&residual, &residual);
         let goals = squares.map(|square| square * REDUCTION * REDUCTION);
         let mut iterations = 0;
-        while iterations < MOST_ITERATIONS && (0..W).any(|k| goals[k] < squares[k]) {
+        while iterations < MAX_ITERATIONS && (0..W).any(|k| goals[k] < squares[k]) {
             iterations += 1;
             turned.copy_from_slice(&direction);
             self.backward(&mut turned);

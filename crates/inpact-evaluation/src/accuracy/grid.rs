@@ -7,7 +7,7 @@
 //!
 //! A grid whose lines contain all abscissae is the table itself up to rounding ([`commensurate_cells`]). For one axis a grid gains nothing, see `docs/accuracy.md`.
 
-use super::refusal::{MOST_AXES, MOST_NODES, MOST_VERTICES};
+use super::refusal::{MAX_AXES, MAX_NODES, MAX_VERTICES};
 use super::vertices::{abscissae, all_abscissae, for_each_vertex};
 use super::{ErrorBound, Refusal, largest_magnitude};
 use crate::error::{Error, ErrorKind};
@@ -63,14 +63,14 @@ impl Grid {
         match table.levels().len() {
             0 => return Err(Refusal::Constant),
             1 => return Err(Refusal::OneAxis),
-            2..=MOST_AXES => {}
+            2..=MAX_AXES => {}
             count => return Err(Refusal::TooManyAxes(count)),
         }
         if cells.len() != table.levels().len() || cells.contains(&0) {
             return Err(Refusal::Cells);
         }
         let node_count = cells.iter().fold(1, |count: usize, &cells| count.saturating_mul(cells.saturating_add(1)));
-        if node_count > MOST_NODES {
+        if node_count > MAX_NODES {
             return Err(Refusal::TooManyNodes(node_count));
         }
         if let Some(&large) = table.values().iter().find(|value| value.abs() > SAFE_TO_ADD) {
@@ -118,7 +118,7 @@ impl Grid {
     /// NaN where a coordinate the value depends on is NaN or missing, as in [`PiecewiseTable::value`].
     pub fn value(&self, point: &[f64]) -> f64 {
         let along = |axis: &GridAxis| point.get(axis.axis).copied().unwrap_or(f64::NAN);
-        let mut coordinates = [f64::NAN; MOST_AXES];
+        let mut coordinates = [f64::NAN; MAX_AXES];
         for (coordinate, axis) in coordinates.iter_mut().zip(&self.axes) {
             *coordinate = along(axis);
         }
@@ -133,14 +133,14 @@ impl Grid {
     /// # Panics
     /// If a column that the value depends on is missing or shorter than `values`.
     pub fn values(&self, columns: &[&[f64]], values: &mut [f64]) {
-        let mut along = [&columns[self.axes[0].axis][..values.len()]; MOST_AXES];
+        let mut along = [&columns[self.axes[0].axis][..values.len()]; MAX_AXES];
         for (along, axis) in along.iter_mut().zip(&self.axes) {
             *along = &columns[axis.axis][..values.len()];
         }
         self.rows(along, values);
     }
 
-    fn rows(&self, along: [&[f64]; MOST_AXES], values: &mut [f64]) {
+    fn rows(&self, along: [&[f64]; MAX_AXES], values: &mut [f64]) {
         InstructionSet::best().run(Each { grid: self, along, values });
     }
 
@@ -162,7 +162,7 @@ impl Grid {
             axes.push([start].into_iter().chain(within).chain([end]).collect());
             let count = axes.iter().fold(1_usize, |count, axis| count.saturating_mul(axis.len()));
             vertices = count.saturating_add(vertices);
-            if vertices > MOST_VERTICES {
+            if vertices > MAX_VERTICES {
                 return Err(Refusal::TooManyVertices(vertices));
             }
             for_each_vertex(&axes, &mut |vertex| {
@@ -242,10 +242,10 @@ impl Grid {
 
     /// The values of a block of rows beginning at row `start`.
     #[inline(always)]
-    fn block(&self, along: [&[f64]; MOST_AXES], start: usize, values: &mut [f64]) {
+    fn block(&self, along: [&[f64]; MAX_AXES], start: usize, values: &mut [f64]) {
         let rows = values.len();
         let mut bases = [0_u32; BLOCK];
-        let mut parts = [[0.0_f64; BLOCK]; MOST_AXES];
+        let mut parts = [[0.0_f64; BLOCK]; MAX_AXES];
         for ((axis, parts), column) in self.axes.iter().zip(&mut parts).zip(along) {
             let column = &column[start..start + rows];
             #[expect(clippy::cast_possible_truncation, reason = "a grid has at most 2^15 nodes")]
@@ -311,7 +311,7 @@ impl GridAxis {
 
 /// Cells along each axis such that the grid lines contain all the table's abscissae; `None` if that takes too many nodes.
 pub fn commensurate_cells(table: &PiecewiseTable) -> Option<Vec<usize>> {
-    const MOST_CELLS: usize = 512;
+    const MAX_CELLS: usize = 512;
     let height = table.levels().len();
     let of_level = |level: usize| {
         let knots = all_abscissae(table, level);
@@ -321,11 +321,11 @@ pub fn commensurate_cells(table: &PiecewiseTable) -> Option<Vec<usize>> {
             let place = (knot - axis.least) / width * cells as f64;
             (place - place.round()).abs() <= 8.0 * f64::EPSILON * cells as f64 * (1.0 + axis.least.abs() / width)
         };
-        (1..=MOST_CELLS).find(|&cells| knots.iter().all(|&knot| knot > axis.greatest || meets(cells, knot)))
+        (1..=MAX_CELLS).find(|&cells| knots.iter().all(|&knot| knot > axis.greatest || meets(cells, knot)))
     };
     let cells: Vec<usize> = (0..height).map(of_level).collect::<Option<_>>()?;
     let nodes = cells.iter().fold(1_usize, |count, cells| count.saturating_mul(cells + 1));
-    (nodes <= MOST_NODES).then_some(cells)
+    (nodes <= MAX_NODES).then_some(cells)
 }
 
 /// `x` clamped to `least` and `greatest`; NaN stays NaN.
@@ -370,7 +370,7 @@ fn smallest_magnitude(table: &PiecewiseTable) -> f64 {
 struct Each<'a> {
     grid: &'a Grid,
     /// The columns of the axes that matter.
-    along: [&'a [f64]; MOST_AXES],
+    along: [&'a [f64]; MAX_AXES],
     values: &'a mut [f64],
 }
 

@@ -3,13 +3,13 @@
 use std::fmt;
 
 /// The maximum number of axes of a grid. Each doubles the number of nodes in a value.
-pub(super) const MOST_AXES: usize = 4;
+pub(super) const MAX_AXES: usize = 4;
 
 /// The most nodes of a grid: 256 KiB, which stays in the second-level cache.
-pub(super) const MOST_NODES: usize = 1 << 15;
+pub(super) const MAX_NODES: usize = 1 << 15;
 
 /// The most vertices of the refinement of table and grid.
-pub(super) const MOST_VERTICES: usize = 1 << 20;
+pub(super) const MAX_VERTICES: usize = 1 << 20;
 
 /// The reason why a method is not possible for a table, or was not chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,16 +46,16 @@ impl fmt::Display for Refusal {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Constant => write!(f, "the value depends on no axis"),
-            Self::TooManyAxes(count) => write!(f, "the value depends on {count} axes, more than {MOST_AXES}"),
+            Self::TooManyAxes(count) => write!(f, "the value depends on {count} axes, more than {MAX_AXES}"),
             Self::TooLarge(value) => write!(f, "{value:e} is too large to be added up"),
             Self::Slope(slope) => write!(f, "{slope:e} cells for a unit of an axis are outside the range of f64"),
             Self::OneAxis => write!(f, "a table of one axis gains nothing by resampling"),
             Self::Cells => write!(f, "the grid needs cells along each axis the value depends on"),
             Self::TooManyNodes(count) => {
-                write!(f, "a grid of {count} nodes would not stay in cache, as {MOST_NODES} do")
+                write!(f, "a grid of {count} nodes would not stay in cache, as {MAX_NODES} do")
             }
             Self::TooManyVertices(count) => {
-                write!(f, "its error would have to be computed at {count} vertices, more than {MOST_VERTICES}")
+                write!(f, "its error would have to be computed at {count} vertices, more than {MAX_VERTICES}")
             }
             Self::Bound { bound, tolerance } => write!(f, "its bound, {bound:.1e}, is above {tolerance:.1e}"),
             Self::Slower => write!(f, "another method within the tolerance is cheaper"),

@@ -1,7 +1,7 @@
 //! From kept rows to results: batches are evaluated while earlier ones are written.
 
 use super::Evaluation;
-use crate::nodes::{Batch, GivenBack};
+use crate::nodes::{Batch, KeptRowsIter};
 use crate::plan::Plan;
 use crate::results::ResultBatch;
 use crate::spread;
@@ -21,7 +21,7 @@ impl Evaluation<'_> {
     /// Rows that cannot be read back; in the inner result, the first error of `write`, after which nothing more is written.
     pub fn run<E: Send>(
         &mut self,
-        rows: &mut GivenBack,
+        rows: &mut KeptRowsIter,
         plan: &Plan,
         mut write: impl FnMut(&Batch, &mut ResultBatch) -> Result<(), E> + Send,
     ) -> io::Result<Result<(), E>> {
@@ -58,7 +58,7 @@ impl Window {
     }
 
     /// Evaluates the next batches.
-    fn fill(&mut self, evaluation: &mut Evaluation<'_>, rows: &mut GivenBack, plan: &Plan) -> io::Result<()> {
+    fn fill(&mut self, evaluation: &mut Evaluation<'_>, rows: &mut KeptRowsIter, plan: &Plan) -> io::Result<()> {
         self.batches.clear();
         while self.batches.len() < evaluation.batches_at_a_time() {
             let Some(mut batch) = rows.next_batch()? else { break };

@@ -12,7 +12,7 @@ use super::pieces::last_of_left_half;
 use crate::table::{PiecewiseTable, Sides, Tail};
 
 /// The maximum number of knots: two registers for each number of a knot.
-const MOST_KNOTS: usize = 16;
+const MAX_KNOTS: usize = 16;
 
 type Lanes = [f64; 8];
 
@@ -49,26 +49,26 @@ impl RegisterKernel {
         let [level] = table.levels() else { return None };
         let knots = &level.knots;
         let is_negative_zero = |value: &f64| *value == 0.0 && value.is_sign_negative();
-        if knots.len() < 2 || MOST_KNOTS < knots.len() || table.values().iter().any(is_negative_zero) {
+        if knots.len() < 2 || MAX_KNOTS < knots.len() || table.values().iter().any(is_negative_zero) {
             return None;
         }
         let segments = knots.len() - 1;
         let halvings = segments.next_power_of_two().trailing_zeros();
-        let mut halving_knots = [[f64::NAN; MOST_KNOTS]; 4];
+        let mut halving_knots = [[f64::NAN; MAX_KNOTS]; 4];
         for (done, at) in halving_knots.iter_mut().enumerate().take(halvings as usize) {
             let step = 1 << (halvings as usize - 1 - done);
-            for index in (0..MOST_KNOTS).step_by(2 * step) {
+            for index in (0..MAX_KNOTS).step_by(2 * step) {
                 // The comparison with a missing knot, or with the last one, fails.
                 at[index] = if index + step < segments { knots[index + step] } else { f64::NAN };
             }
         }
         let of_segments = |number: &dyn Fn(usize) -> f64| {
-            let mut numbers = [f64::NAN; MOST_KNOTS];
+            let mut numbers = [f64::NAN; MAX_KNOTS];
             (0..segments).for_each(|segment| numbers[segment] = number(segment));
             cast(numbers)
         };
         let of_knots = |number: &dyn Fn(usize) -> f64| {
-            let mut numbers = [f64::NAN; MOST_KNOTS];
+            let mut numbers = [f64::NAN; MAX_KNOTS];
             (0..knots.len()).for_each(|knot| numbers[knot] = number(knot));
             cast(numbers)
         };

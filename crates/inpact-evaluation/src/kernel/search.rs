@@ -62,7 +62,7 @@ pub(super) struct Breaks {
 const INTEGER_BITS: f64 = 4_503_599_627_370_496.0;
 
 /// The maximum number of buckets, beyond which they are not worth their memory.
-const MOST_BUCKETS: usize = 1 << 22;
+const MAX_BUCKETS: usize = 1 << 22;
 
 impl GroupSearch {
     pub(super) fn new(groups: &[Breaks]) -> Self {
@@ -180,7 +180,7 @@ impl GroupSearch {
         for breaks in groups {
             let mut group = Group::new(breaks);
             group.choose_buckets(breaks, kind, steps)?;
-            if search.buckets.len() + group.last_key as usize >= MOST_BUCKETS {
+            if search.buckets.len() + group.last_key as usize >= MAX_BUCKETS {
                 return None;
             }
             group.first_bucket = u32::try_from(search.buckets.len()).ok()?;

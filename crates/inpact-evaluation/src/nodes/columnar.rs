@@ -230,7 +230,7 @@ impl ColumnarReader {
                 soundness::parquet::check_pages(&shared, metadata.metadata(), |root| read.contains(&root))?;
                 let mask = ProjectionMask::roots(metadata.parquet_schema(), read.iter().copied());
                 let builder = ParquetRecordBatchReaderBuilder::new_with_metadata(shared, metadata);
-                let rows = self.rows_of_a_batch.min(MOST_ROWS_AT_ONCE);
+                let rows = self.rows_of_a_batch.min(MAX_ROWS_AT_ONCE);
                 let reader = builder
                     .with_projection(mask)
                     .with_batch_size(rows)
@@ -266,7 +266,7 @@ impl ColumnarReader {
 }
 
 /// The maximum number of rows of a Parquet file decoded at once.
-const MOST_ROWS_AT_ONCE: usize = 8192;
+const MAX_ROWS_AT_ONCE: usize = 8192;
 
 impl Source {
     /// Reads the next rows.

@@ -49,7 +49,7 @@ pub(super) struct Decoded {
 }
 
 /// The part of a cell's text that a message shows.
-const MOST_SHOWN: usize = 200;
+const MAX_SHOWN: usize = 200;
 
 /// Faults of a row or a cell.
 #[derive(Debug)]
@@ -226,7 +226,7 @@ fn push_number(cell: &[u8], field: usize, to: usize, batch: &mut Batch, problems
     let value = number(cell);
     if value.is_none() && !cell.trim_ascii().is_empty() {
         let text = cell.trim_ascii();
-        problems.add(ProblemKind::Cell { field, text: text[..text.len().min(MOST_SHOWN)].to_vec() });
+        problems.add(ProblemKind::Cell { field, text: text[..text.len().min(MAX_SHOWN)].to_vec() });
     }
     batch.numbers[to].push(value);
 }

@@ -122,7 +122,7 @@ impl KeptRows {
     ///
     /// # Errors
     /// Those of writing the rest of the file.
-    pub fn give_back(&mut self, selection: &Selection) -> io::Result<GivenBack> {
+    pub fn give_back(&mut self, selection: &Selection) -> io::Result<KeptRowsIter> {
         let file = match self.spilled.take().map(BufWriter::into_inner) {
             Some(Ok(mut file)) => {
                 file.seek(SeekFrom::Start(0))?;
@@ -132,7 +132,7 @@ impl KeptRows {
             None => None,
         };
         let place = |of: &[super::Column], column| of.iter().position(|kept| *kept == column);
-        Ok(GivenBack {
+        Ok(KeptRowsIter {
             batches: std::mem::take(&mut self.batches),
             file,
             left_in_file: std::mem::take(&mut self.spilled_batches),
@@ -148,7 +148,7 @@ fn not_kept(error: &io::Error) -> io::Error {
 }
 
 /// An iterator over kept rows.
-pub struct GivenBack {
+pub struct KeptRowsIter {
     batches: VecDeque<Batch>,
     file: Option<BufReader<Box<dyn SpillFile>>>,
     left_in_file: u64,
@@ -157,13 +157,13 @@ pub struct GivenBack {
     numbers: Vec<Option<usize>>,
 }
 
-impl fmt::Debug for GivenBack {
+impl fmt::Debug for KeptRowsIter {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.debug_struct("GivenBack").field("batches", &self.batches.len()).finish_non_exhaustive()
+        formatter.debug_struct("KeptRowsIter").field("batches", &self.batches.len()).finish_non_exhaustive()
     }
 }
 
-impl GivenBack {
+impl KeptRowsIter {
     /// The next rows; `None` after the last.
     ///
     /// # Errors

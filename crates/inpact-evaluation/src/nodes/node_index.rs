@@ -9,7 +9,7 @@ use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasher, Hasher};
 
 /// The maximum number of nodes remembered; a table of more nodes must have ascending numbers as labels.
-const MOST_REMEMBERED: usize = 1 << 20;
+const MAX_REMEMBERED: usize = 1 << 20;
 
 /// The order of the rows by node.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -278,7 +278,7 @@ impl NodeRuns {
         if let Some(met) = &mut self.met {
             // Two nodes with the same hash count as a recurring node, which is the safe side.
             self.has_met_again |= !met.insert(self.hasher.hash_one((interaction, label)));
-            if self.has_met_again || MOST_REMEMBERED < met.len() {
+            if self.has_met_again || MAX_REMEMBERED < met.len() {
                 self.met = None;
             }
         }
@@ -310,7 +310,7 @@ mod tests {
 
     #[test]
     fn many_nodes_must_ascend() {
-        let many = i64::try_from(MOST_REMEMBERED).expect("a million") + 10;
+        let many = i64::try_from(MAX_REMEMBERED).expect("a million") + 10;
         let mut runs = NodeRuns::new();
         for node in 0..many {
             runs.take(0, NodeLabel::Number(node));

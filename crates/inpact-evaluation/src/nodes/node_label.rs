@@ -72,14 +72,14 @@ impl<'a> NodeLabels<'a> {
 #[inline]
 fn whole_number(text: &[u8]) -> Option<i64> {
     /// So many digits surely fit.
-    const MOST_DIGITS: usize = 18;
+    const MAX_DIGITS: usize = 18;
     let (digits, sign) = text.strip_prefix(b"-").map_or((text, 1), |digits| (digits, -1));
     match digits {
         [b'0'] if sign == 1 => return Some(0),
         [b'1'..=b'9', ..] => {}
         _ => return None,
     }
-    if MOST_DIGITS < digits.len() {
+    if MAX_DIGITS < digits.len() {
         return std::str::from_utf8(text).ok()?.parse().ok();
     }
     let number = digits

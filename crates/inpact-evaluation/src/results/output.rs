@@ -242,7 +242,7 @@ impl fmt::Display for Output {
 impl Along {
     /// The field variable at an index, from zero.
     pub(crate) fn field_variable(index: usize) -> Self {
-        // A deck has at most a thousand (`MOST_FIELD_VARIABLES`).
+        // A deck has at most a thousand (`MAX_FIELD_VARIABLES`).
         Self::FieldVariable(u32::try_from(index + 1).unwrap_or(u32::MAX))
     }
 }

@@ -13,7 +13,7 @@ use crate::error::{Error, ErrorKind};
 use std::ops::Range;
 
 /// The maximum number of rows of a folded table; groups without common abscissae add up.
-const MOST_ROWS: usize = 1 << 20;
+const MAX_ROWS: usize = 1 << 20;
 
 impl PiecewiseTable {
     /// The table for a finite coordinate `at` along `axis`, as a table with the same axes that no longer depends on that one.
@@ -37,7 +37,7 @@ impl PiecewiseTable {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn folded(&self, axis: usize, at: f64) -> Result<Self, Error> {
-        self.folded_within(axis, at, MOST_ROWS)
+        self.folded_within(axis, at, MAX_ROWS)
     }
 
     /// The same, with a limit of rows.

@@ -31,7 +31,7 @@ struct Ways {
 const STEPS_OF_AN_ELEMENT: usize = 16;
 
 /// Networks with more elements have too many paths; small ones store them whatever their length.
-const MOST_ELEMENTS: usize = 1 << 16;
+const MAX_ELEMENTS: usize = 1 << 16;
 
 /// Steps that are stored in any case.
 const LEAST_STEPS: usize = 1 << 16;
@@ -335,7 +335,7 @@ impl Balance {
 impl Ways {
     /// The paths of some elements; `None` where they are too long to be stored.
     fn of(core: &Core, form: &Form, elements: &[u32]) -> Option<Self> {
-        if elements.len() > MOST_ELEMENTS {
+        if elements.len() > MAX_ELEMENTS {
             return None;
         }
         let most = (STEPS_OF_AN_ELEMENT * elements.len()).max(LEAST_STEPS);

@@ -11,16 +11,16 @@
 //! Source: Grassmann, Taksar and Heyman, Operations Research 33 (1985) 1107–1116; Peña, ETNA 18 (2004) 198–208.
 
 use super::core::{Core, Element};
-use super::report::Shortcoming;
+use super::report::MethodFailure;
 use super::sets::index;
 use inpact_evaluation::numbers::DoubleDouble;
 use std::collections::HashMap;
 
 /// Above this number of distinct known values the filled network is too dense.
-const MOST_KNOWN: usize = 256;
+const MAX_KNOWN: usize = 256;
 
 /// The maximum fill-in of an elimination.
-pub(super) const MOST_FILLED: usize = 20_000_000;
+pub(super) const MAX_FILLED: usize = 20_000_000;
 
 /// Result of an elimination: the values of the free nodes, and the flow through each element that is there.
 #[derive(Debug)]
@@ -47,10 +47,10 @@ pub(super) fn eliminate(
     is_there: &[bool],
     is_free: &[bool],
     most_filled: usize,
-) -> Result<Eliminated, Shortcoming> {
+) -> Result<Eliminated, MethodFailure> {
     let (terminal_of, terminals) = terminals(core);
-    if terminals.len() > MOST_KNOWN {
-        return Err(Shortcoming::TooManyHeld { found: terminals.len(), most: MOST_KNOWN });
+    if terminals.len() > MAX_KNOWN {
+        return Err(MethodFailure::TooManyHeld { found: terminals.len(), most: MAX_KNOWN });
     }
     let number = |end: u32| if core.is_free(end) { end } else { terminal_of[(end - core.free) as usize] };
     let mut stars: Vec<HashMap<u32, DoubleDouble>> = vec![HashMap::new(); core.free as usize];
@@ -62,7 +62,7 @@ pub(super) fn eliminate(
             }
         }
     }
-    let steps = forward(core, stars, is_free, most_filled).ok_or(Shortcoming::TooLarge { most: most_filled })?;
+    let steps = forward(core, stars, is_free, most_filled).ok_or(MethodFailure::TooLarge { most: most_filled })?;
     let differences = backward(core, &steps, &terminals);
     let mut values = vec![DoubleDouble::ZERO; core.free as usize];
     for Step { node, star, .. } in steps.iter().rev() {
@@ -182,7 +182,7 @@ fn difference(differences: &HashMap<[u32; 2], DoubleDouble>, a: u32, b: u32) -> 
 #[cfg(test)]
 mod tests {
     use super::super::network::{LinearNetwork, Link};
-    use super::{Core, Shortcoming, eliminate};
+    use super::{Core, MethodFailure, eliminate};
 
     /// A node among held ones, with `held` distinct values.
     fn star(held: u32) -> Core {
@@ -201,7 +201,7 @@ mod tests {
         let found = |most| eliminate(&core, &all(core.elements.len()), &all(core.free as usize), most);
         assert!((found(9).expect("as much as it may").values[0].to_f64() - 2.0).abs() < 1e-15);
         let refusal = found(8).expect_err("too much");
-        assert_eq!(refusal, Shortcoming::TooLarge { most: 8 });
+        assert_eq!(refusal, MethodFailure::TooLarge { most: 8 });
         let message = "it would need room for more than 8 conductances between nodes that are not neighbours";
         assert_eq!(refusal.to_string(), message);
     }

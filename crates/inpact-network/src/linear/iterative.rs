@@ -18,7 +18,7 @@ use faer::{MatMut, MatRef, Par};
 const KEPT: f64 = 0.97;
 
 /// The maximum number of iterations for one correction.
-const MOST_ITERATIONS: usize = 5_000;
+const MAX_ITERATIONS: usize = 5_000;
 
 /// The reduction of the residual in one correction, unless less is needed.
 const CORRECTION: f64 = 1e-8;
@@ -59,7 +59,7 @@ impl Solves for ConjugateGradients {
             initial_guess: InitialGuessStatus::MaybeNonZero,
             abs_tolerance: 0.0,
             rel_tolerance: self.reduction,
-            max_iters: MOST_ITERATIONS,
+            max_iters: MAX_ITERATIONS,
             ..CgParams::default()
         };
         let done = conjugate_gradient(

@@ -12,11 +12,11 @@ use super::core::{Core, ROUNDING};
 use super::edges::{Balance, Edges};
 use super::factor::{Accuracy, Solves};
 use super::matrix::{scaled_flows, shift, unscale};
-use super::report::{NoSolution, Quality, Shortcoming};
+use super::report::{MethodFailure, NoSolution, Quality};
 use inpact_evaluation::numbers::DoubleDouble;
 
 /// The maximum number of steps of a refinement: a body without any flow decreases from rounding to zero by some sixteen decades a step, if necessary through all six hundred of f64.
-const MOST_STEPS: usize = 100;
+const MAX_STEPS: usize = 100;
 
 /// Steps without progress after which a refinement fails.
 const PATIENCE: usize = 24;
@@ -47,7 +47,7 @@ pub(crate) enum GaveUp {
     Overflow,
 }
 
-impl From<GaveUp> for Shortcoming {
+impl From<GaveUp> for MethodFailure {
     fn from(reason: GaveUp) -> Self {
         match reason {
             GaveUp::Solver(reason) => Self::NoSolution(reason),
@@ -96,7 +96,7 @@ pub(crate) fn refine(core: &Core, edges: &Edges, solver: &mut dyn Solves, tolera
                     return Ok(Refined { jumps, balance, quality });
                 }
             }
-            if PATIENCE <= idle || MOST_STEPS <= quality.solves {
+            if PATIENCE <= idle || MAX_STEPS <= quality.solves {
                 return Err(GaveUp::Stalled(quality));
             }
         }

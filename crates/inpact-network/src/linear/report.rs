@@ -54,7 +54,7 @@ pub struct LinearReport {
     /// Residual and estimated error; elimination has no estimate.
     pub quality: Quality,
     /// The methods that were tried before, and why they failed.
-    pub given_up: Vec<(Method, Shortcoming)>,
+    pub given_up: Vec<(Method, MethodFailure)>,
     /// Time of each phase.
     pub phases: Phases,
 }
@@ -88,7 +88,7 @@ pub enum Reused {
 /// Reasons why a method failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Shortcoming {
+pub enum MethodFailure {
     /// It could not start.
     NoSolution(NoSolution),
     /// It came no nearer than this.
@@ -127,7 +127,7 @@ impl LinearReport {
     }
 }
 
-impl From<NoSolution> for Shortcoming {
+impl From<NoSolution> for MethodFailure {
     fn from(reason: NoSolution) -> Self {
         Self::NoSolution(reason)
     }
@@ -154,7 +154,7 @@ impl fmt::Display for NoSolution {
     }
 }
 
-impl fmt::Display for Shortcoming {
+impl fmt::Display for MethodFailure {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NoSolution(reason) => reason.fmt(formatter),

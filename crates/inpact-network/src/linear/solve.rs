@@ -4,7 +4,7 @@ use super::components::refuse_floating;
 use super::core::{Core, NONE, Origins};
 use super::dead_ends::DeadEnds;
 use super::edges::{Balance, Edges};
-use super::elimination::{MOST_FILLED, eliminate};
+use super::elimination::{MAX_FILLED, eliminate};
 use super::factor::{Factor, Solves};
 use super::found::{CoreFound, SMALL};
 use super::infinite;
@@ -15,7 +15,7 @@ use super::network::{LinearNetwork, Link};
 use super::ordering::Analysis;
 use super::refinement::{Refined, refine};
 use super::relative::Form;
-use super::report::{LAST_DIGIT, LinearReport, Method, NoSolution, Quality, Reused, Shortcoming};
+use super::report::{LAST_DIGIT, LinearReport, Method, MethodFailure, NoSolution, Quality, Reused};
 use super::series::Series;
 use super::solution::LinearSolution;
 use super::work::{Clock, Phases, Work, no_clock, seconds_since};
@@ -114,7 +114,7 @@ impl Solver {
         report.phases.set_up = seconds_since(self.clock, start) - order - factor - solve;
         self.work += report.work();
         let method = report.method;
-        let overflow = || Error::not_solved(vec![(method, Shortcoming::Overflow)]);
+        let overflow = || Error::not_solved(vec![(method, MethodFailure::Overflow)]);
         let mut solution = put_together(network, &core, &origins, found, report);
         if !solution.is_finite() {
             return Err(overflow());
@@ -170,7 +170,7 @@ impl Solver {
             };
             report.given_up.push((method, shortcoming));
             method = match (method, shortcoming) {
-                (Method::Direct, Shortcoming::Overflow) | (Method::Elimination, _) => {
+                (Method::Direct, MethodFailure::Overflow) | (Method::Elimination, _) => {
                     return Err(Error::not_solved(std::mem::take(&mut report.given_up)));
                 }
                 (Method::Direct, _) => Method::Elimination,
@@ -187,15 +187,15 @@ impl Solver {
         edges: &Edges,
         series: &Series,
         report: &mut LinearReport,
-    ) -> Result<CoreFound, Shortcoming> {
+    ) -> Result<CoreFound, MethodFailure> {
         if method == Method::Elimination {
-            let found = eliminate(core, &series.is_there, &series.is_free, MOST_FILLED)?;
+            let found = eliminate(core, &series.is_there, &series.is_free, MAX_FILLED)?;
             let residual = worst_share(core, series, &found.flows);
             report.quality = Quality { residual, ..Quality::default() };
             return match residual <= self.tolerance.max(f64::EPSILON) {
                 true => Ok(CoreFound { values: found.values, flows: found.flows, forest: None }),
-                false if residual.is_finite() => Err(Shortcoming::Stalled(report.quality)),
-                false => Err(Shortcoming::Overflow),
+                false if residual.is_finite() => Err(MethodFailure::Stalled(report.quality)),
+                false => Err(MethodFailure::Overflow),
             };
         }
         if edges.form.count() == 0 {

@@ -10,7 +10,7 @@ use super::matrix::Pattern;
 use super::network::LinearNetwork;
 use super::ordering::{Analysis, Ordering};
 use super::relative::Form;
-use super::report::{Method, NoSolution, Shortcoming};
+use super::report::{Method, MethodFailure, NoSolution};
 use super::series::Series;
 use super::solve::Solver;
 use crate::error::Error;
@@ -75,7 +75,7 @@ impl Symbolic {
         let form = Form::choose(&core, &series.is_there, &series.is_free);
         let edges = Edges::new(&core, form, &series.is_there);
         let pattern = Pattern::of(&core, &edges);
-        let memory = || Error::not_solved(vec![(Method::Direct, Shortcoming::NoSolution(NoSolution::Memory))]);
+        let memory = || Error::not_solved(vec![(Method::Direct, MethodFailure::NoSolution(NoSolution::Memory))]);
         let analysis = Analysis::of(pattern.symbolic()).ok_or_else(memory)?;
         Ok(Self { pattern: Arc::new(pattern), analysis: Arc::new(analysis) })
     }

@@ -15,7 +15,7 @@ use faer::sparse::Triplet;
 use std::sync::Arc;
 
 /// Parameters of GMRES by preconditioner.
-struct Patience {
+struct GmresParameters {
     /// The restart length.
     restart: usize,
     /// The maximum number of restarts.
@@ -25,10 +25,10 @@ struct Patience {
 }
 
 /// Complete factors are nearly inverses: without fast convergence there is none.
-const WITH_FACTORS: Patience = Patience { restart: 24, most_restarts: 16, stagnation: 0.9 };
+const WITH_FACTORS: GmresParameters = GmresParameters { restart: 24, most_restarts: 16, stagnation: 0.9 };
 
 /// Incomplete factors leave the slow modes of large plates, which need many vectors; these take a tenth of the memory of the factor of the whole matrix that would be next.
-const WITH_INCOMPLETE_FACTORS: Patience = Patience { restart: 60, most_restarts: 60, stagnation: 0.98 };
+const WITH_INCOMPLETE_FACTORS: GmresParameters = GmresParameters { restart: 60, most_restarts: 60, stagnation: 0.98 };
 
 /// The reduction of the residual.
 const REDUCTION: f64 = 1e-9;

@@ -70,7 +70,7 @@ pub fn read_as_far_as_it_goes(text: &str, name: &str, files: &mut dyn SceneFiles
 }
 
 /// The maximum number of comparisons of unknown names with known ones, so that a table of a million unknown names takes no longer than a correct one.
-const MOST_COMPARISONS: usize = 1_000_000;
+const MAX_COMPARISONS: usize = 1_000_000;
 
 /// A scene under construction.
 pub(super) struct Reader<'a> {
@@ -105,7 +105,7 @@ impl<'a> Reader<'a> {
             origins: Vec::new(),
             is_steady: true,
             lacks_nodes: false,
-            comparisons: MOST_COMPARISONS,
+            comparisons: MAX_COMPARISONS,
             findings: Findings::new(name),
             found: Vec::new(),
         }

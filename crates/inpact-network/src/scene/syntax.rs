@@ -24,10 +24,10 @@ pub(super) struct Sound<'t> {
 }
 
 /// The maximum number of parses of the text: after a key without a value the parser sees further keys and values only once it is removed.
-const MOST_PASSES: usize = 4;
+const MAX_PASSES: usize = 4;
 
 /// The maximum number of places reported; more of a kind are counted.
-const MOST_SAID: usize = 100;
+const MAX_SAID: usize = 100;
 
 /// The maximum nesting of lists and tables, which is that of the TOML parser.
 const DEEPEST: usize = 80;
@@ -36,7 +36,7 @@ const DEEPEST: usize = 80;
 pub(super) fn sound(text: &str) -> Sound<'_> {
     let mut sound = Sound { text: None, without: Vec::new(), problems: Vec::new() };
     let mut rest = Cow::Borrowed(text);
-    for _ in 0..MOST_PASSES {
+    for _ in 0..MAX_PASSES {
         let places = places(&rest);
         if places.is_empty() {
             sound.text = Some(rest);
@@ -61,7 +61,7 @@ fn take_out(text: &str, rest: String, places: Vec<Range<usize>>, sound: &mut Sou
             continue;
         }
         // More are only counted.
-        let is_seen = sound.problems.len() < MOST_SAID;
+        let is_seen = sound.problems.len() < MAX_SAID;
         let (message, help) = if is_seen { said(text, &line, &place) } else { ("no TOML".to_owned(), String::new()) };
         sound.problems.push(Problem { at: place.start, rule: &MALFORMED_SCENE, message, help });
         rest[line.clone()].fill(b' ');

@@ -14,7 +14,7 @@ use super::usable::{self, Given, Refusal};
 use super::{Field, SceneInterface};
 use csv::StringRecord;
 use inpact_evaluation::nodes::{Column, DUPLICATE_COLUMN, Findings, MALFORMED_CELL, MISSING_COLUMN, Part, Place};
-use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
+use inpact_parser::model::{MAX_FIELD_VARIABLES, Name};
 
 const NODE_COLUMNS: &str = "a table of nodes has `node`, and of each field `potential_fixed`, `potential_source`, `temperature_fixed`, `temperature_source`, \
                             `temperature_capacity`, `temperature_initial`, `pore_pressure_fixed`, `pore_pressure_source`, `pore_pressure_capacity`, \
@@ -189,7 +189,7 @@ pub(super) fn interfaces(
             // The name in the scene file.
             let column = Column::named(if header == "temperature" { "temp" } else { header })?;
             // More fields than a deck can have would only waste memory in every row.
-            let is_known = |number: u32| usize::try_from(number).is_ok_and(|number| number <= MOST_FIELD_VARIABLES);
+            let is_known = |number: u32| usize::try_from(number).is_ok_and(|number| number <= MAX_FIELD_VARIABLES);
             let is_of_interface = matches!(
                 column,
                 Column::Area

@@ -8,7 +8,7 @@
 
 use super::KeywordLine;
 use super::lines::next_line;
-use super::plain_row::{MOST_CELLS, plain_row};
+use super::plain_row::{MAX_CELLS, plain_row};
 use crate::grammar::{Definition, RowShape};
 use crate::span::{SourceId, Span};
 use std::ops::Range;
@@ -88,7 +88,7 @@ pub(super) fn thin(text: &[u8], start: u64, source: SourceId, trend: Trend) -> O
     // The lines of the first rows, and of the last.
     let mut first = [0; ROWS_KEPT];
     let mut last = [0; ROWS_KEPT];
-    let mut cells = [0.0; MOST_CELLS];
+    let mut cells = [0.0; MAX_CELLS];
     let (mut at, mut count) = (0, 0);
     while at < text.len() {
         if text[at..].starts_with(b"**") {
@@ -125,7 +125,7 @@ struct Groups {
     trend: Trend,
     width: usize,
     /// The row before.
-    before: [f64; MOST_CELLS],
+    before: [f64; MAX_CELLS],
     place_before: Range<usize>,
     /// The abscissae of the first group, which all others must have as well.
     abscissae: Vec<f64>,
@@ -142,7 +142,7 @@ impl Groups {
         Self {
             trend,
             width: 0,
-            before: [0.0; MOST_CELLS],
+            before: [0.0; MAX_CELLS],
             place_before: 0..0,
             abscissae: Vec::with_capacity(MANY_ROWS),
             is_first_group: true,

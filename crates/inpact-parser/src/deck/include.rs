@@ -12,7 +12,7 @@ use std::collections::HashMap;
 use std::path::PathBuf;
 
 /// The maximum nesting of files, not counting the deck itself: five in Abaqus (S-52), nine in CalculiX (CX-06).
-pub fn most_levels(dialect: Dialect) -> usize {
+pub fn max_levels(dialect: Dialect) -> usize {
     match dialect {
         Dialect::Abaqus => 5,
         Dialect::Calculix => 9,
@@ -20,13 +20,13 @@ pub fn most_levels(dialect: Dialect) -> usize {
 }
 
 /// The maximum number of files that a deck may include in total: a bound against files that include one another repeatedly.
-pub const MOST_FILES: usize = 200_000;
+pub const MAX_FILES: usize = 200_000;
 
 /// The maximum number of bytes of files that are read again, in addition to sixteen times the bytes read for the first time.
 ///
 /// Files of a few kilobytes that include the next level a hundred times on each of five levels would amount to
 /// terabytes; a deck in which a mesh is included for each of its parts stays below.
-const MOST_BYTES_AGAIN: u64 = 16 << 20;
+const MAX_BYTES_AGAIN: u64 = 16 << 20;
 
 /// An *INCLUDE of the deck.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -48,9 +48,9 @@ pub enum IncludeOutcome {
     Unreadable(String),
     /// It lies outside of this folder, beyond which nothing may be read.
     Outside(String),
-    /// It lies too many levels deep ([`most_levels`]).
+    /// It lies too many levels deep ([`max_levels`]).
     TooDeep,
-    /// The limit of included files is reached ([`MOST_FILES`]).
+    /// The limit of included files is reached ([`MAX_FILES`]).
     TooMany,
     /// It is being read already: the files include one another.
     Cycle,
@@ -200,10 +200,10 @@ impl Assembly<'_> {
     }
 
     fn read_file(&mut self, name: Span, keyword: Span) -> IncludeOutcome {
-        if self.level >= most_levels(self.options.grammar.dialect()) {
+        if self.level >= max_levels(self.options.grammar.dialect()) {
             return IncludeOutcome::TooDeep;
         }
-        if self.deck.sources.len() > MOST_FILES {
+        if self.deck.sources.len() > MAX_FILES {
             return IncludeOutcome::TooMany;
         }
         let written = self.deck.shown(name);
@@ -227,7 +227,7 @@ impl Assembly<'_> {
             return IncludeOutcome::Cycle;
         }
         let length_before = self.lengths.get(&found.path).copied();
-        let allowed = MOST_BYTES_AGAIN.saturating_add(self.first_bytes.saturating_mul(16));
+        let allowed = MAX_BYTES_AGAIN.saturating_add(self.first_bytes.saturating_mul(16));
         if length_before.is_some_and(|length| self.bytes_again.saturating_add(length) > allowed) {
             let again = self.bytes_again;
             return IncludeOutcome::Unreadable(format!(

@@ -6,7 +6,7 @@ use crate::number::{FLOAT_CHARACTERS, read_float, read_plain};
 use std::ops::Range;
 
 /// The most items of a line (K-50).
-pub(crate) const MOST_CELLS: usize = 8;
+pub(crate) const MAX_CELLS: usize = 8;
 
 /// A row of plain numbers.
 pub(crate) struct PlainRow {
@@ -19,7 +19,7 @@ pub(crate) struct PlainRow {
 }
 
 /// Reads the row on the line that begins at `start` into `cells`; `None` if there is anything but numbers, commas and blanks.
-pub(crate) fn plain_row(text: &[u8], start: usize, cells: &mut [f64; MOST_CELLS]) -> Option<PlainRow> {
+pub(crate) fn plain_row(text: &[u8], start: usize, cells: &mut [f64; MAX_CELLS]) -> Option<PlainRow> {
     let mut at = after_blanks(text, start);
     let first = at;
     for (index, cell) in cells.iter_mut().enumerate() {
@@ -73,7 +73,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
         #[test]
         fn a_plain_row_has_the_numbers_of_its_items(line in "[ \t]{0,2}([0-9.+-]{1,4}|1.5[eEdD]?-?[0-9]{1,2}|[0-9]{18,22}|[ ,\"*<])([ ,]{1,3}[0-9.]{1,8}){0,8}[ ,\t]{0,2}") {
-            let mut cells = [0.0; MOST_CELLS];
+            let mut cells = [0.0; MAX_CELLS];
             let text = format!("{line}\r\nrest");
             let Some(row) = plain_row(text.as_bytes(), 0, &mut cells) else { return Ok(()) };
             let found: Vec<u64> = cells[..row.width].iter().map(|cell| cell.to_bits()).collect();
@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn a_row_of_tables_is_plain() {
-        let mut cells = [0.0; MOST_CELLS];
+        let mut cells = [0.0; MAX_CELLS];
         let row = plain_row(b" 1.5e7, -2.,\t300 \n", 0, &mut cells).expect("numbers");
         assert_eq!((row.width, row.content, row.next), (3, 1..16, 18));
         assert_eq!(cells[..3], [1.5e7, -2.0, 300.0]);

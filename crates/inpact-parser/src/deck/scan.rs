@@ -26,7 +26,7 @@ const LINE_CHARACTERS: usize = 256;
 const LEADING_ROWS_KEPT: u64 = 64 * 1024;
 
 /// The maximum number of notes per block for rows that begin with the name of a keyword.
-const MOST_LIKE_KEYWORDS: usize = 100;
+const MAX_LIKE_KEYWORDS: usize = 100;
 
 /// The rows that keep their text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -304,7 +304,7 @@ impl<'grammar> Scanner<'grammar> {
     /// Finds the rows that begin with the full name of a keyword, as their text is not kept.
     fn find_likes_of_keywords(&mut self, bytes: &[u8], found: &mut Vec<(Range<usize>, Mark)>) {
         for line in lines(bytes) {
-            if MOST_LIKE_KEYWORDS <= self.block.likes_of_keywords {
+            if MAX_LIKE_KEYWORDS <= self.block.likes_of_keywords {
                 return;
             }
             if self.begins_with_keyword(bytes[line.clone()].trim_ascii_start()) {

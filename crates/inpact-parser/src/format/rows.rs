@@ -58,7 +58,7 @@ impl Order {
         let counted = definition.data.counted.as_ref().and_then(|counted| parameter(&counted.count)?.value);
         // The value of a symbol is not known here, and only affects the layout.
         let count = counted.and_then(|value| read_integer(deck.text(value)).ok()).unwrap_or(0);
-        let count = usize::try_from(count).unwrap_or(0).min(crate::model::MOST_FIELD_VARIABLES);
+        let count = usize::try_from(count).unwrap_or(0).min(crate::model::MAX_FIELD_VARIABLES);
         let layout = definition.layout(|name| parameter(name).is_some(), count)?;
         Some(match definition.rows() {
             RowShape::Table => Self::Repeated { lines: layout.lines_per_row(), width: layout.columns.len() },

@@ -22,7 +22,7 @@ use std::sync::Arc;
 /// The most field variables a table may depend on here; a larger DEPENDENCIES is read as this.
 ///
 /// The manual gives no limit. Without one a typing error could request gigabytes.
-pub const MOST_FIELD_VARIABLES: usize = 1000;
+pub const MAX_FIELD_VARIABLES: usize = 1000;
 
 /// Reads the model of a deck, and reports problems.
 pub fn read(deck: &Deck, grammar: &Grammar) -> (Model, Vec<Problem>) {

@@ -5,7 +5,7 @@
 use super::SubOption;
 use super::row_places::RowPlaces;
 use super::table::{CellText, Table};
-use crate::deck::{Block, DataLine, Deck, MOST_CELLS, items, plain_row};
+use crate::deck::{Block, DataLine, Deck, MAX_CELLS, items, plain_row};
 use crate::expression::{Parameters, SubstitutionError, substitute};
 use crate::grammar::{Dialect, Layout};
 use crate::number::{FLOAT_CHARACTERS, FortranNumber, read_float, read_fortran};
@@ -166,7 +166,7 @@ impl RowReader<'_> {
 
     /// Adds a row of numbers only, if it fits on a line.
     fn take_plain_row(&mut self, line: &DataLine<'_>) -> bool {
-        let mut cells = [0.0; MOST_CELLS];
+        let mut cells = [0.0; MAX_CELLS];
         let Some(row) = plain_row(line.text, 0, &mut cells) else { return false };
         let Some(missing) = self.layout.defaults.get(row.width..) else { return false };
         self.values.extend_from_slice(&cells[..row.width]);

@@ -11,10 +11,10 @@ const POWERS: [f64; 23] = [
 ];
 
 /// The most digits that surely fit into 64 bits.
-const MOST_DIGITS: usize = 19;
+const MAX_DIGITS: usize = 19;
 
 /// The integers up to here are exact.
-const MOST_EXACT: u64 = 1 << 53;
+const MAX_EXACT: u64 = 1 << 53;
 
 /// Reads the number at the beginning of `text`, and returns its length; anything may follow.
 ///
@@ -42,10 +42,10 @@ pub fn read_plain(text: &[u8]) -> Option<(f64, usize)> {
         (mantissa, at) = digits(text, from, mantissa);
         let decimals = at - from;
         count += decimals;
-        // More digits than `MOST_DIGITS` are refused below.
+        // More digits than `MAX_DIGITS` are refused below.
         exponent = -i32::try_from(decimals).ok()?;
     }
-    if count == 0 || MOST_DIGITS < count || MOST_EXACT < mantissa {
+    if count == 0 || MAX_DIGITS < count || MAX_EXACT < mantissa {
         return None;
     }
     if matches!(text.get(at), Some(b'e' | b'E')) {

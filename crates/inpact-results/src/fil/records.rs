@@ -7,7 +7,7 @@ use crate::problem::{Place, Problem, shown};
 /// The characters of a line. Trailing blanks may have been lost; they belong to words.
 const LINE: usize = 80;
 /// The maximum number of words of a record, far above the 80 of the manual.
-const MOST_WORDS: i64 = 1 << 20;
+const MAX_WORDS: i64 = 1 << 20;
 
 pub(super) const CUT: &str =
     "the file is cut short: copy it again, or let the job run to its end; the part before is read";
@@ -101,14 +101,14 @@ impl<'a, 'b> Records<'a, 'b> {
     /// The number of words of the record.
     fn count(&mut self, place: Place) -> Result<i64, Problem> {
         match self.word()? {
-            Word::Integer(count @ 2..=MOST_WORDS) => Ok(count),
+            Word::Integer(count @ 2..=MAX_WORDS) => Ok(count),
             word => {
                 let found = match word {
                     Word::Integer(value) => value.to_string(),
                     Word::Real(value) => value.to_string(),
                     Word::Text(text) => shown(&text),
                 };
-                let message = format!("expected the number of words of a record, 2 to {MOST_WORDS}, found `{found}`");
+                let message = format!("expected the number of words of a record, 2 to {MAX_WORDS}, found `{found}`");
                 Err(Problem::new(place, message, FOREIGN))
             }
         }

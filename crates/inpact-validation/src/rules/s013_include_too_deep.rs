@@ -1,7 +1,7 @@
 //! S013: files that include one another, or lie too deep.
 
 use crate::rule::{Context, Report, declare_rule};
-use inpact_parser::deck::{IncludeOutcome, MOST_FILES, most_levels};
+use inpact_parser::deck::{IncludeOutcome, MAX_FILES, max_levels};
 
 declare_rule! {
     /// Files include one another without end, lie more than five levels below the deck, or are more than 200,000.
@@ -33,11 +33,11 @@ fn check(context: &Context<'_>, report: &mut Report<'_>) {
                 .label("being read already")
                 .help("take this *INCLUDE out"),
             IncludeOutcome::TooDeep => report
-                .at(span, format!("`{shown}` lies more than {} levels below the deck", most_levels(context.grammar.dialect())))
+                .at(span, format!("`{shown}` lies more than {} levels below the deck", max_levels(context.grammar.dialect())))
                 .label("not read")
                 .help("include it from the deck itself"),
             IncludeOutcome::TooMany => report
-                .at(span, format!("`{shown}` is not read: {MOST_FILES} files are included before it, as many as are allowed"))
+                .at(span, format!("`{shown}` is not read: {MAX_FILES} files are included before it, as many as are allowed"))
                 .label("not read")
                 .help("put small files together"),
             _ => continue,

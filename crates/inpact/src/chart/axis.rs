@@ -23,10 +23,10 @@ pub(super) struct Tick {
 }
 
 /// The most decades of which each has a label.
-const MOST_LABELS: i32 = 9;
+const MAX_LABELS: i32 = 9;
 
 /// The most decades between which 2 and 5 have labels as well.
-const MOST_DECADES_WITH_DIGITS: f64 = 2.5;
+const MAX_DECADES_WITH_DIGITS: f64 = 2.5;
 
 impl Axis {
     /// An axis that holds these numbers above zero with some room at its ends.
@@ -51,14 +51,14 @@ impl Axis {
     pub(super) fn ticks(&self) -> Vec<Tick> {
         let (first, last) = (self.least.floor() as i32, self.greatest.ceil() as i32);
         let decades = last - first;
-        let step = 1 + decades / (MOST_LABELS + 1);
-        let are_few = self.greatest - self.least <= MOST_DECADES_WITH_DIGITS;
+        let step = 1 + decades / (MAX_LABELS + 1);
+        let are_few = self.greatest - self.least <= MAX_DECADES_WITH_DIGITS;
         let mut ticks = Vec::new();
         for decade in first..=last {
             let power = 10f64.powi(decade);
             let label = (decade.rem_euclid(step) == 0).then(|| written(power));
             ticks.push(Tick { at: power, is_decade: true, label });
-            if decades <= MOST_LABELS {
+            if decades <= MAX_LABELS {
                 ticks.extend((2..10).map(|digit| {
                     let at = f64::from(digit) * power;
                     let label = (are_few && (digit == 2 || digit == 5)).then(|| written(at));

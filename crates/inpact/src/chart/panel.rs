@@ -34,7 +34,7 @@ const BOTTOM: f64 = HEIGHT - 84.0;
 const STUB: f64 = 0.16;
 
 /// The maximum number of curves with a legend entry each.
-const MOST_LEGEND: usize = 10;
+const MAX_LEGEND: usize = 10;
 
 /// The number of bars of a histogram along a whole axis.
 const BARS: usize = 40;
@@ -257,7 +257,7 @@ impl<'a> Plot<'a> {
         }
         y += 6.0;
         let label = |index: usize| curves[index].at.map_or_else(String::new, number);
-        if curves.len() <= MOST_LEGEND {
+        if curves.len() <= MAX_LEGEND {
             for index in (0..curves.len()).rev() {
                 let colour = colours::of_curve(index, curves.len());
                 let look = format!(r#"fill="none" stroke="{colour}" stroke-width="2""#);

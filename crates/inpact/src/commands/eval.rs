@@ -16,7 +16,7 @@ use crate::settings::DeckArguments;
 use crate::text::counted;
 use clap::Args;
 use inpact_diagnostics::visible::visible_line;
-use inpact_evaluation::nodes::{Findings, GivenBack};
+use inpact_evaluation::nodes::{Findings, KeptRowsIter};
 use inpact_evaluation::plan::Plan;
 use inpact_evaluation::results::{ResultWriter, TableFormat};
 use inpact_evaluation::{Evaluation, Tally};
@@ -115,7 +115,7 @@ fn evaluate(
 
 /// Writes all results; an error of reading rows, or in the inner result one of writing.
 fn write(
-    rows: &mut GivenBack,
+    rows: &mut KeptRowsIter,
     mut evaluation: Evaluation<'_>,
     plan: &Plan,
     (output, format): (&mut ResultFile, TableFormat),

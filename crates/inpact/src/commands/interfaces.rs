@@ -17,7 +17,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 /// The maximum number of names in a line.
-const MOST_NAMES: usize = 10;
+const MAX_NAMES: usize = 10;
 
 #[derive(Debug, Args)]
 pub(crate) struct InterfacesArguments {
@@ -211,8 +211,8 @@ fn value(interfaces: &Interfaces, lumped: &LumpedPair) -> Value {
 }
 
 fn listed(names: &[String]) -> String {
-    let shown = names.iter().take(MOST_NAMES).cloned().collect::<Vec<_>>().join(", ");
-    match names.len().checked_sub(MOST_NAMES) {
+    let shown = names.iter().take(MAX_NAMES).cloned().collect::<Vec<_>>().join(", ");
+    match names.len().checked_sub(MAX_NAMES) {
         Some(more) if 0 < more => format!("{shown} and {more} more"),
         _ => shown,
     }

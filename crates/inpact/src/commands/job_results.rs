@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// The maximum number of notes of one run.
-const MOST_NOTES: usize = 100;
+const MAX_NOTES: usize = 100;
 
 pub(crate) const RESULTS_HELP: &str = "What the deck's own job wrote: .frd or .dat of CalculiX, .fil (ASCII) or .rpt of Abaqus, .vtu; may be given several times: files are joined by their times, and where two say something of a node, the one named first counts";
 
@@ -93,13 +93,13 @@ fn before(states: usize, time: Option<f64>) -> String {
 }
 
 fn say_notes(notes: &[ResultNote], messages: Messages<'_>) {
-    for ResultNote { file, message } in notes.iter().take(MOST_NOTES) {
+    for ResultNote { file, message } in notes.iter().take(MAX_NOTES) {
         messages.tell(
             || vec![visible_line(&format!("{file}: note: {message}")).into_owned()],
             || json!({ "severity": "note", "file": &**file, "message": message }).to_string(),
         );
     }
-    let more = notes.len().saturating_sub(MOST_NOTES);
+    let more = notes.len().saturating_sub(MAX_NOTES);
     if 0 < more {
         messages.remark(|| format!("note: {more} more notes on results"));
     }

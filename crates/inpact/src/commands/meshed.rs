@@ -18,7 +18,7 @@ use std::fs::File;
 use std::path::Path;
 
 /// The maximum number of notes, each of which must be located in the file.
-const MOST_NOTES: usize = 100;
+const MAX_NOTES: usize = 100;
 
 pub(crate) struct MeshedDeck {
     pub(crate) name: String,
@@ -111,7 +111,7 @@ impl MeshedDeck {
     }
 
     pub(crate) fn say_notes(&self, notes: &[MeshNote], messages: Messages<'_>) -> Result<(), Failure> {
-        for note in notes.iter().take(MOST_NOTES) {
+        for note in notes.iter().take(MAX_NOTES) {
             self.say_note(note, messages)?;
         }
         self.say_more(notes.len(), messages);
@@ -136,14 +136,14 @@ impl MeshedDeck {
         notes: &[MeshNote],
         (messages, settings): (Messages<'_>, &Settings),
     ) -> Result<bool, Failure> {
-        let found = notes.iter().take(MOST_NOTES).map(|note| self.finding(rule, Some(note.span), &note.message));
+        let found = notes.iter().take(MAX_NOTES).map(|note| self.finding(rule, Some(note.span), &note.message));
         let has_errors = messages.of_deck(found.collect::<Result<_, _>>()?, &self.read.deck, settings);
         self.say_more(notes.len(), messages);
         Ok(has_errors)
     }
 
     fn say_more(&self, notes: usize, messages: Messages<'_>) {
-        let more = notes.saturating_sub(MOST_NOTES);
+        let more = notes.saturating_sub(MAX_NOTES);
         if 0 < more {
             messages.remark(|| format!("{}: note: {more} more notes", visible_line(&self.name)));
         }

@@ -19,10 +19,10 @@ use std::collections::{BTreeMap, HashMap};
 const SAMPLE: u64 = 3000;
 
 /// The maximum number of faces drawn.
-const MOST_FACES: usize = 4000;
+const MAX_FACES: usize = 4000;
 
 /// The maximum number of times with sums.
-const MOST_TIMES: usize = 20_000;
+const MAX_TIMES: usize = 20_000;
 
 /// The laws with a column of their own among the results.
 const LAWS: [(LawKind, Output); 3] = [
@@ -146,7 +146,7 @@ enum Source {
 fn surfaces(drawn: &Drawn, coloured: &[Coloured]) -> Vec<Surface> {
     let Some(state) = drawn.states.last() else { return Vec::new() };
     let grid = drawn.faces.grid(state, Vec::new());
-    if MOST_FACES < grid.cells.len() {
+    if MAX_FACES < grid.cells.len() {
         return Vec::new();
     }
     let first = (drawn.states.len() - 1) * drawn.faces.points();
@@ -256,7 +256,7 @@ impl Places {
         let key = if bits >> 63 == 0 { bits | 1 << 63 } else { !bits };
         for (output, (_, place)) in self.summed.iter().enumerate() {
             let Some(value) = results.numbers[*place].get(row) else { continue };
-            if MOST_TIMES < sums.len() && !sums.contains_key(&(interaction, output, key)) {
+            if MAX_TIMES < sums.len() && !sums.contains_key(&(interaction, output, key)) {
                 continue;
             }
             sums.entry((interaction, output, key)).or_insert_with(|| (time, UnboundedSum::default())).1.add(value);

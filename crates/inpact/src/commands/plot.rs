@@ -82,10 +82,10 @@ enum PictureKind {
     Page,
 }
 
-const MOST_PANELS: usize = 40;
+const MAX_PANELS: usize = 40;
 
 /// The maximum number of changes between two decks that are listed.
-const MOST_CHANGES: usize = 20;
+const MAX_CHANGES: usize = 20;
 
 /// The number of values of a curve on logarithmic axes, where it is not straight between its rows.
 const ON_LOGARITHMIC: usize = 160;
@@ -200,9 +200,9 @@ fn figures(
     };
     let is_page = arguments.output.as_ref().is_some_and(|picture| picture.kind == PictureKind::Page);
     let mut request = if is_page {
-        arguments.drawing.request(Detail::Even(report::VALUES), MOST_PANELS, Probing::On)
+        arguments.drawing.request(Detail::Even(report::VALUES), MAX_PANELS, Probing::On)
     } else {
-        arguments.drawing.request(detail, MOST_PANELS, Probing::Off)
+        arguments.drawing.request(detail, MAX_PANELS, Probing::Off)
     };
     if let Some((gathered, evaluable)) = nodes {
         request.held_places = gathered.held_places(evaluable);
@@ -219,12 +219,12 @@ fn figures(
         curves::mark_findings(figure, &deck.model, &deck.findings);
         if !std::ptr::eq(deck, first) {
             let changed = curves::changes(&first.model, &deck.model, &request.laws);
-            let more = changed.len().saturating_sub(MOST_CHANGES);
+            let more = changed.len().saturating_sub(MAX_CHANGES);
             if changed.is_empty() {
                 figure.notes.push(format!("the same as {}", first.name));
             }
             let since = |line: String| format!("changed since {}: {line}", first.name);
-            figure.notes.extend(changed.into_iter().take(MOST_CHANGES).map(since));
+            figure.notes.extend(changed.into_iter().take(MAX_CHANGES).map(since));
             figure.notes.extend((0 < more).then(|| format!("{more} more changes")));
         }
     }

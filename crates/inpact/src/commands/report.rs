@@ -47,7 +47,7 @@ pub(crate) struct ReportArguments {
     reading: DeckArguments,
 }
 
-const MOST_PANELS: usize = 250;
+const MAX_PANELS: usize = 250;
 
 pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
     files::name_as_inputs(std::slice::from_ref(&arguments.deck));
@@ -57,7 +57,7 @@ pub(crate) fn run(arguments: &ReportArguments) -> Result<Outcome, Failure> {
     arguments.drawing.refuse_unknown(&[deck.model()])?;
     let findings = deck.check();
     let choices = arguments.laws.choices(deck.model(), deck.grammar().dialect(), None)?;
-    let mut request = arguments.drawing.request(Detail::Even(VALUES), MOST_PANELS, Probing::On);
+    let mut request = arguments.drawing.request(Detail::Even(VALUES), MAX_PANELS, Probing::On);
     let has_rows = arguments.mesh || arguments.nodes.is_some() || !arguments.results.is_empty();
     if arguments.tradeoff && !has_rows {
         let message = "`--tradeoff` measures on rows: give `--nodes TABLE`, `--results FILE` or `--mesh`";

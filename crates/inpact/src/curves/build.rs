@@ -12,19 +12,19 @@ use inpact_parser::grammar::Grammar;
 use inpact_parser::model::{Interaction, Model};
 use std::collections::HashMap;
 
-const MOST_CURVES: usize = 24;
+const MAX_CURVES: usize = 24;
 
 /// The maximum number of panels of one law.
-const MOST_MULTIPLES: usize = 6;
+const MAX_MULTIPLES: usize = 6;
 
 /// The maximum number of lines about parts not drawn.
-const MOST_NOTES: usize = 20;
+const MAX_NOTES: usize = 20;
 
 /// The maximum number of abscissae of a side common to all curves of a panel, for reading all of them on hover.
-const MOST_SHARED: usize = 400;
+const MAX_SHARED: usize = 400;
 
 /// The maximum number of values from which these are chosen.
-const MOST_CHOSEN_FROM: usize = 200_000;
+const MAX_CHOSEN_FROM: usize = 200_000;
 
 /// The panels of one deck.
 pub fn figure(deck: (&str, &Model), grammar: &Grammar, choices: &Choices, request: &Request) -> Figure {
@@ -81,7 +81,7 @@ impl Builder<'_> {
                 match self.subject(interaction, *kind, rows, &laws) {
                     Ok(subject) => figure.panels.extend(self.panels(&subject)),
                     Err(None) => {}
-                    Err(Some(_)) if MOST_NOTES <= figure.notes.len() => silent += 1,
+                    Err(Some(_)) if MAX_NOTES <= figure.notes.len() => silent += 1,
                     Err(Some(why)) => {
                         figure.notes.push(format!("{} of `{}`: {why}", kind.name(), interaction.name));
                     }
@@ -149,7 +149,7 @@ impl Builder<'_> {
         let multiple = free.iter().copied().find(|index| Some(*index) != family);
         let places = multiple.map_or_else(
             || vec![None],
-            |multiple| spread(&all[multiple].values, MOST_MULTIPLES).into_iter().map(Some).collect(),
+            |multiple| spread(&all[multiple].values, MAX_MULTIPLES).into_iter().map(Some).collect(),
         );
         let mut panels = Vec::new();
         for place in places {
@@ -162,7 +162,7 @@ impl Builder<'_> {
                 |index: usize| Some(index) != family && (1 < all[index].values.len() || all[index].chosen.is_some());
             let held = (0..all.len()).filter(|index| is_held(*index)).map(|index| {
                 let of = all[index].values.len();
-                let drawn = if Some(index) == multiple { MOST_MULTIPLES } else { 1 };
+                let drawn = if Some(index) == multiple { MAX_MULTIPLES } else { 1 };
                 let (quantity, left_out) = (all[index].quantity.clone(), of.saturating_sub(drawn));
                 Held { quantity, at: variables[index], of, left_out }
             });
@@ -200,7 +200,7 @@ impl Builder<'_> {
         let (curves, all_curves) = if subject.law.is_some() {
             let places =
                 family.map_or_else(|| vec![None], |(_, family)| family.values.iter().copied().map(Some).collect());
-            let places_drawn = spread(&places, MOST_CURVES);
+            let places_drawn = spread(&places, MAX_CURVES);
             let variables_at = |at: &Option<f64>| {
                 let mut variables = variables.to_vec();
                 if let (Some(at), Some((index, _))) = (at, family) {
@@ -325,11 +325,11 @@ fn shared_branches(
 ) -> Vec<Branch> {
     sort_and_dedup(&mut abscissae);
     shared.all += abscissae.len();
-    let abscissae = spread(&abscissae, MOST_CHOSEN_FROM / variables.len().max(1));
+    let abscissae = spread(&abscissae, MAX_CHOSEN_FROM / variables.len().max(1));
     let samples = variables.iter().map(|of| abscissae.iter().map(|x| sample(subject, side, *x, of)).collect());
     let samples: Vec<Vec<Option<Sample>>> = samples.collect();
     let values = samples.iter().map(|of| of.iter().map(|sample| sample.map(|sample| sample.y)).collect());
-    let kept = thinned_together(&abscissae, &values.collect::<Vec<_>>(), MOST_SHARED);
+    let kept = thinned_together(&abscissae, &values.collect::<Vec<_>>(), MAX_SHARED);
     shared.kept += kept.len();
     let branches = samples.iter().zip(variables).map(|(samples, variables)| {
         let samples = kept.iter().filter_map(|index| samples[*index]);
@@ -387,14 +387,14 @@ fn as_written(subject: &Subject<'_>) -> (Vec<Curve>, usize) {
     for (side, of) in Side::BOTH.into_iter().zip(&subject.sides) {
         for group in of.groups() {
             count += 1;
-            if MOST_CURVES <= curves.len() {
+            if MAX_CURVES <= curves.len() {
                 continue;
             }
             let Some(rows) = of.rows else { continue };
             let (knots, knot_count) = of.knots(Some(group.clone()));
             let points: Vec<Knot> = if knots.is_empty() {
                 let knot = |row: usize| Knot { x: rows.row(row)[1], y: rows.row(row)[0], row };
-                spread(&group.clone().collect::<Vec<_>>(), MOST_CURVES * 100).into_iter().map(knot).collect()
+                spread(&group.clone().collect::<Vec<_>>(), MAX_CURVES * 100).into_iter().map(knot).collect()
             } else {
                 knots.clone()
             };

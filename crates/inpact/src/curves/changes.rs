@@ -5,7 +5,7 @@ use super::{LawKind, Side, number};
 use inpact_parser::model::Model;
 
 /// The maximum number of rows of one table that are listed.
-const MOST_ROWS: usize = 4;
+const MAX_ROWS: usize = 4;
 
 /// Changes, one line for each table that differs; empty where the laws are the same.
 pub fn changes(old: &Model, new: &Model, kinds: &[LawKind]) -> Vec<String> {
@@ -54,7 +54,7 @@ fn difference(old: &Rows<'_>, new: &Rows<'_>) -> Option<String> {
     if changed.is_empty() {
         return None;
     }
-    let named = changed.iter().take(MOST_ROWS).map(|row| {
+    let named = changed.iter().take(MAX_ROWS).map(|row| {
         let cells = old.columns.iter().zip(old.row(*row).iter().zip(new.row(*row)));
         let cells = cells.filter(|(_, (a, b))| a.to_bits() != b.to_bits());
         let cells = cells.map(|(column, (a, b))| format!("{column} {} -> {}", number(*a), number(*b)));
@@ -62,6 +62,6 @@ fn difference(old: &Rows<'_>, new: &Rows<'_>) -> Option<String> {
     });
     let named: Vec<String> = named.collect();
     let more =
-        if MOST_ROWS < changed.len() { format!("; {} more rows", changed.len() - MOST_ROWS) } else { String::new() };
+        if MAX_ROWS < changed.len() { format!("; {} more rows", changed.len() - MAX_ROWS) } else { String::new() };
     Some(format!("{}{more}", named.join("; ")))
 }

@@ -34,12 +34,12 @@ pub struct ProbeBranch {
 }
 
 /// The maximum number of values of a law in a page.
-const MOST_VALUES: usize = 4000;
+const MAX_VALUES: usize = 4000;
 
-const MOST_ABSCISSAE: usize = 40;
+const MAX_ABSCISSAE: usize = 40;
 
 /// The maximum number of values of each side from which these are chosen.
-const MOST_CHOSEN_FROM: usize = 200_000;
+const MAX_CHOSEN_FROM: usize = 200_000;
 
 /// The number of intervals between two values of a variable.
 const PARTS: [usize; 3] = [4, 2, 1];
@@ -55,7 +55,7 @@ pub(super) fn probe(
     if movable.is_empty() {
         return None;
     }
-    let most_stops = MOST_VALUES / (2 * MOST_ABSCISSAE);
+    let most_stops = MAX_VALUES / (2 * MAX_ABSCISSAE);
     let axes = axes(movable, most_stops);
     let stops: usize = axes.iter().map(|axis| axis.stops.len()).product();
     let variables: Vec<Vec<f64>> = (0..stops).map(|stop| at_stop(variables, movable, &axes, stop)).collect();
@@ -66,11 +66,11 @@ pub(super) fn probe(
         let mut abscissae: Vec<f64> = each.collect();
         sort_and_dedup(&mut abscissae);
         let all = abscissae.len();
-        let abscissae = spread(&abscissae, MOST_CHOSEN_FROM / stops);
+        let abscissae = spread(&abscissae, MAX_CHOSEN_FROM / stops);
         let value = |x: &f64, of: &Vec<f64>| law.value(Side::BOTH[side], *x, of).map(|value| value.y);
         let values = variables.iter().map(|of| abscissae.iter().map(|x| value(x, of)).collect());
         let values: Vec<Vec<Option<f64>>> = values.collect();
-        let kept = thinned_together(&abscissae, &values, MOST_ABSCISSAE);
+        let kept = thinned_together(&abscissae, &values, MAX_ABSCISSAE);
         ProbeBranch {
             abscissae: kept.iter().map(|index| abscissae[*index]).collect(),
             values: values.iter().flat_map(|of| kept.iter().map(|index| of[*index])).collect(),

@@ -8,16 +8,16 @@ use super::{Knot, Sample, range};
 use std::ops::Range;
 
 /// Values of one branch that are kept: about two for each pixel of a wide picture.
-const MOST_SAMPLES: usize = 1600;
+const MAX_SAMPLES: usize = 1600;
 
 /// The maximum number of marked rows of one branch; more would merge into a band.
-const MOST_KNOTS: usize = 300;
+const MAX_KNOTS: usize = 300;
 
 /// The maximum number of abscissae taken from the groups around a curve.
-const MOST_OF_ALL_ROWS: usize = 4000;
+const MAX_OF_ALL_ROWS: usize = 4000;
 
 /// The maximum number of groups of rows whose end is sampled on both sides, as the value may drop there.
-const MOST_ENDS: usize = 64;
+const MAX_ENDS: usize = 64;
 
 /// The rows of one side of contact, with the data needed by all its curves.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl<'a> Side<'a> {
         if 1 < groups.len() {
             all = (0..of.count()).map(|row| of.row(row)[1]).filter(|x| x.is_finite()).collect();
             sort_and_dedup(&mut all);
-            all = spread(&all, MOST_OF_ALL_ROWS);
+            all = spread(&all, MAX_OF_ALL_ROWS);
         }
         Self { rows, groups, depends: of.depends(), all }
     }
@@ -65,7 +65,7 @@ impl<'a> Side<'a> {
     pub(super) fn knots(&self, group: Option<Range<usize>>) -> (Vec<Knot>, usize) {
         let (Some(rows), Some(group)) = (self.rows, group) else { return (Vec::new(), 0) };
         let count = group.len();
-        if MOST_KNOTS < count {
+        if MAX_KNOTS < count {
             return (Vec::new(), count);
         }
         let knot = |row: usize| Knot { x: rows.row(row)[1], y: rows.row(row)[0], row };
@@ -84,7 +84,7 @@ impl<'a> Side<'a> {
                 abscissae.push(last(&group).next_up());
                 abscissae.extend(group.map(|row| rows.row(row)[1]));
             } else {
-                abscissae.extend(self.groups.iter().take(MOST_ENDS).map(|group| last(group).next_up()));
+                abscissae.extend(self.groups.iter().take(MAX_ENDS).map(|group| last(group).next_up()));
                 abscissae.extend(&self.all);
             }
         }
@@ -143,10 +143,10 @@ pub(super) fn spread<T: Clone>(values: &[T], most: usize) -> Vec<T> {
 
 /// Drops samples below the resolution: of each interval the first, the last, the smallest and the largest are kept.
 pub(super) fn thinned(samples: Vec<Sample>) -> Vec<Sample> {
-    if samples.len() <= MOST_SAMPLES {
+    if samples.len() <= MAX_SAMPLES {
         return samples;
     }
-    let stretch = samples.len().div_ceil(MOST_SAMPLES / 4);
+    let stretch = samples.len().div_ceil(MAX_SAMPLES / 4);
     let mut kept = Vec::new();
     for part in samples.chunks(stretch) {
         let by_value = |a: &usize, b: &usize| part[*a].y.total_cmp(&part[*b].y);
@@ -216,7 +216,7 @@ mod tests {
             reach: Reach::Within,
         };
         let kept = thinned((0..1_000_000).map(sample).collect());
-        assert!(kept.len() <= MOST_SAMPLES);
+        assert!(kept.len() <= MAX_SAMPLES);
         assert!(kept.iter().any(|sample| sample.y == 7.0));
         assert!(kept.windows(2).all(|pair| pair[0].x < pair[1].x));
         assert_eq!(kept.last().map(|sample| sample.x), Some(999_999.0));

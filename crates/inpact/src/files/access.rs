@@ -53,7 +53,7 @@ mod attributes {
     use std::path::Path;
 
     /// The largest attribute, and the longest list of names, of any file system.
-    const MOST_BYTES: usize = 64 * 1024;
+    const MAX_BYTES: usize = 64 * 1024;
 
     const ACCESS_LIST: &str = "system.posix_acl_access";
 
@@ -65,9 +65,9 @@ mod attributes {
         let original = File::open(path)?;
         // One that the folder gives to its new files.
         let _ = fremovexattr(file, ACCESS_LIST);
-        let mut names = vec![0_u8; MOST_BYTES];
+        let mut names = vec![0_u8; MAX_BYTES];
         let Ok(length) = flistxattr(&original, &mut names[..]) else { return Ok(()) };
-        let mut value = vec![0_u8; MOST_BYTES];
+        let mut value = vec![0_u8; MAX_BYTES];
         for name in names[..length].split(|byte| *byte == 0).filter(|name| !name.is_empty()) {
             let name = OsStr::from_bytes(name);
             if name == "security.capability" {

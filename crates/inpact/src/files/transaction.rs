@@ -21,7 +21,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The maximum number of bytes read from a possibly endless stream, such as a pipe.
-const MOST_OF_STREAM: u64 = 1 << 30;
+const MAX_OF_STREAM: u64 = 1 << 30;
 
 /// A file as it was read: its identity and content.
 #[derive(Debug, Clone)]
@@ -52,7 +52,7 @@ impl Snapshot {
         let unreadable = |error| Failure::read(path, error);
         let metadata = file.metadata().map_err(unreadable)?;
         let mut input = bounded(&mut file, Some(&metadata));
-        let bytes = if metadata.is_file() { lines_of(&mut input) } else { lines_of_stream(&mut input, MOST_OF_STREAM) };
+        let bytes = if metadata.is_file() { lines_of(&mut input) } else { lines_of_stream(&mut input, MAX_OF_STREAM) };
         let bytes = bytes.map_err(unreadable)?;
         let whole = whole_path(path);
         let identity = metadata.is_file().then(|| Identity::of(&metadata, &whole));

@@ -10,7 +10,7 @@ use std::path::Path;
 pub(super) const LONGEST_LINE: usize = 16 << 20;
 
 /// The maximum number of bytes read from a device, including terminals, which may be endless.
-const MOST_OF_DEVICE: u64 = 64 << 20;
+const MAX_OF_DEVICE: u64 = 64 << 20;
 
 /// An input with a limit for endless devices.
 pub(super) struct Bounded<R> {
@@ -21,7 +21,7 @@ pub(super) struct Bounded<R> {
 
 /// Limits an input by its file type.
 pub(super) fn bounded<R: Read>(input: R, metadata: Option<&Metadata>) -> Bounded<R> {
-    bounded_to(input, if metadata.is_some_and(is_device) { MOST_OF_DEVICE } else { u64::MAX })
+    bounded_to(input, if metadata.is_some_and(is_device) { MAX_OF_DEVICE } else { u64::MAX })
 }
 
 /// Limits an input to a number of bytes.
@@ -143,7 +143,7 @@ fn read_while(input: &mut dyn Read, mut judge: impl FnMut(&[u8], usize) -> io::R
 
 #[cfg(test)]
 mod tests {
-    use super::{LONGEST_LINE, MOST_OF_DEVICE, PIECE, bounded_to, lines_of, lines_of_stream, text_of};
+    use super::{LONGEST_LINE, MAX_OF_DEVICE, PIECE, bounded_to, lines_of, lines_of_stream, text_of};
     use std::io::{self, Read};
 
     fn message<T: std::fmt::Debug>(read: io::Result<T>) -> String {
@@ -162,9 +162,9 @@ mod tests {
 
     #[test]
     fn a_device_and_a_stream_without_an_end_are_given_up() {
-        let refusal = message(io::copy(&mut bounded_to(io::repeat(b'\n'), MOST_OF_DEVICE), &mut io::sink()));
+        let refusal = message(io::copy(&mut bounded_to(io::repeat(b'\n'), MAX_OF_DEVICE), &mut io::sink()));
         assert_eq!(refusal, "it is a device, and gives more than 67108864 bytes: write it to a file first");
-        let refusal = message(lines_of(&mut bounded_to(io::repeat(b'\n'), MOST_OF_DEVICE)));
+        let refusal = message(lines_of(&mut bounded_to(io::repeat(b'\n'), MAX_OF_DEVICE)));
         assert!(refusal.starts_with("it is a device, and gives more than 67108864 bytes"), "{refusal}");
         let refusal = message(lines_of_stream(&mut io::repeat(b'\n'), 100_000));
         assert_eq!(refusal, "it is no file, and gives more than 100000 bytes: write it to a file first");

@@ -131,7 +131,7 @@ pub(super) fn surfaces(page: &mut Page, surfaces: &[Surface]) {
 /// Sums over interfaces: a drawing of those with several times, a table of all.
 pub(super) fn histories(page: &mut Page, histories: &[History]) {
     /// The maximum number of rows of the table of one sum.
-    const MOST_TIMES: usize = 200;
+    const MAX_TIMES: usize = 200;
     for history in histories {
         page.element("h3", &[], &format!("{} of {}, over all nodes", history.output, history.interaction));
         let timed: Vec<(f64, f64)> =
@@ -144,15 +144,15 @@ pub(super) fn histories(page: &mut Page, histories: &[History]) {
         page.open("details", if timed.len() < 2 { &[("open", "")] } else { &[] });
         page.element("summary", &[], "Values");
         page.table(&["time", &history.output], |page| {
-            for (time, value) in history.points.iter().take(MOST_TIMES) {
+            for (time, value) in history.points.iter().take(MAX_TIMES) {
                 page.open("tr", &[]);
                 page.element("td", &[], &time.map_or_else(|| "all rows".to_owned(), number));
                 page.element("td", &[], &number(*value));
                 page.close("tr");
             }
         });
-        if MOST_TIMES < history.points.len() {
-            page.element("p", &[], &format!("{} more times.", history.points.len() - MOST_TIMES));
+        if MAX_TIMES < history.points.len() {
+            page.element("p", &[], &format!("{} more times.", history.points.len() - MAX_TIMES));
         }
         page.close("details");
     }

@@ -8,13 +8,13 @@ use inpact_parser::model::{Interaction, Model, TableOf};
 use inpact_parser::span::Span;
 
 /// The maximum number of rows of a table shown.
-const MOST_ROWS: usize = 200;
+const MAX_ROWS: usize = 200;
 
 /// The maximum number of lines of another option.
-const MOST_LINES: usize = 20;
+const MAX_LINES: usize = 20;
 
 /// The maximum number of interactions with a separate section.
-const MOST_INTERACTIONS: usize = 400;
+const MAX_INTERACTIONS: usize = 400;
 
 /// The location of a row of a table, in the deck and on the page.
 pub(super) struct RowPlace {
@@ -37,12 +37,12 @@ impl RowPlace {
 
 /// The rows of all tables that the page shows.
 pub(super) fn row_places(model: &Model) -> Vec<RowPlace> {
-    let interactions = model.interactions.values().take(MOST_INTERACTIONS).enumerate();
+    let interactions = model.interactions.values().take(MAX_INTERACTIONS).enumerate();
     let places = interactions.flat_map(|(interaction, of)| {
         let name = of.name.written().to_owned();
         of.tables().into_iter().enumerate().flat_map(move |(table, of)| {
             let name = name.clone();
-            let rows = of.table.row_spans().take(MOST_ROWS).enumerate();
+            let rows = of.table.row_spans().take(MAX_ROWS).enumerate();
             rows.map(move |(row, span)| RowPlace { span, interaction, table, row, name: name.clone() })
                 .collect::<Vec<_>>()
         })
@@ -57,11 +57,11 @@ impl Report<'_> {
         if model.interactions.is_empty() {
             page.element("p", &[], "The deck defines no *SURFACE INTERACTION.");
         }
-        for (number, interaction) in model.interactions.values().take(MOST_INTERACTIONS).enumerate() {
+        for (number, interaction) in model.interactions.values().take(MAX_INTERACTIONS).enumerate() {
             self.interaction(page, number, interaction);
         }
-        if MOST_INTERACTIONS < model.interactions.len() {
-            let more = model.interactions.len() - MOST_INTERACTIONS;
+        if MAX_INTERACTIONS < model.interactions.len() {
+            let more = model.interactions.len() - MAX_INTERACTIONS;
             page.element(
                 "p",
                 &[],
@@ -153,8 +153,8 @@ fn options(interaction: &Interaction) -> Vec<String> {
             None => format!(", {}", given.name),
         });
         let head = format!("*{}{}", option.keyword, parameters.collect::<String>());
-        let lines: Vec<String> = option.rows.iter().take(MOST_LINES).map(|row| row.join(", ")).collect();
-        let more = if MOST_LINES < option.rows.iter().count() { "; …" } else { "" };
+        let lines: Vec<String> = option.rows.iter().take(MAX_LINES).map(|row| row.join(", ")).collect();
+        let more = if MAX_LINES < option.rows.iter().count() { "; …" } else { "" };
         let rows = if lines.is_empty() { String::new() } else { format!(": {}{more}", lines.join("; ")) };
         options.push(head + &rows);
     }
@@ -169,7 +169,7 @@ fn rows(page: &mut Page, of: &TableOf<'_>, (interaction, table): (usize, usize))
     page.element("summary", &[], &format!("*{} against {against}: {}", of.keyword, counted(count, "row")));
     let titles: Vec<&str> = std::iter::once("row").chain(of.table.columns.iter().map(String::as_str)).collect();
     page.table(&titles, |page| {
-        for (row, cells) in of.table.row_values().take(MOST_ROWS).enumerate() {
+        for (row, cells) in of.table.row_values().take(MAX_ROWS).enumerate() {
             page.open("tr", &[("id", &format!("row-{}-{}-{}", interaction + 1, table + 1, row + 1))]);
             page.element("td", &[], &(row + 1).to_string());
             for (column, cell) in cells.iter().enumerate() {
@@ -180,8 +180,8 @@ fn rows(page: &mut Page, of: &TableOf<'_>, (interaction, table): (usize, usize))
             page.close("tr");
         }
     });
-    if MOST_ROWS < count {
-        page.element("p", &[], &format!("{} more rows.", count - MOST_ROWS));
+    if MAX_ROWS < count {
+        page.element("p", &[], &format!("{} more rows.", count - MAX_ROWS));
     }
     page.close("details");
 }

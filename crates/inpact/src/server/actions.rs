@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 const FIX_ALL: &str = "source.fixAll.inpact";
 
 /// The maximum number of rounds: a fix may reveal another finding, but not endlessly.
-const MOST_ROUNDS: usize = 10;
+const MAX_ROUNDS: usize = 10;
 
 pub(super) fn actions(
     workspace: &mut Workspace,
@@ -134,7 +134,7 @@ fn for_other_dialect(view: View<'_>, selected: Span, here: &[&found::Diagnostic]
 fn fix_all(view: View<'_>) -> Option<CodeAction> {
     let before = view.text_of(view.source)?;
     let mut text = before.clone();
-    for _ in 0..MOST_ROUNDS {
+    for _ in 0..MAX_ROUNDS {
         let analysis = view.workspace.analyse_with(view.analysis, view.place(), &text);
         if mend_once(&analysis, view, &mut text) == 0 {
             break;

@@ -4,7 +4,7 @@ use super::analysis::Analysis;
 use super::blocks::{Entry, substituted};
 use inpact_parser::deck::DataLine;
 use inpact_parser::grammar::{Column, Counted, Definition, RowShape};
-use inpact_parser::model::{MOST_FIELD_VARIABLES, Table};
+use inpact_parser::model::{MAX_FIELD_VARIABLES, Table};
 use inpact_parser::number::read_integer;
 use inpact_parser::span::Span;
 
@@ -99,7 +99,7 @@ impl<'a> Layout<'a> {
         };
         let named = lead.into_iter().map(ColumnOf::Named);
         let numbers = counted.into_iter().flat_map(|(counted, count)| {
-            (1..=count.min(MOST_FIELD_VARIABLES)).map(move |number| ColumnOf::Counted(counted, number))
+            (1..=count.min(MAX_FIELD_VARIABLES)).map(move |number| ColumnOf::Counted(counted, number))
         });
         Some(Self { columns: named.chain(numbers).collect(), first_line, following })
     }

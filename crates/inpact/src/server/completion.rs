@@ -15,7 +15,7 @@ use inpact_parser::grammar::{Definition, ParameterDefinition, ParameterKind};
 use inpact_parser::span::Span;
 use std::path::Path;
 
-const MOST_FILES: usize = 500;
+const MAX_FILES: usize = 500;
 
 pub(super) fn complete(
     workspace: &mut Workspace,
@@ -238,7 +238,7 @@ impl<'a> Place<'a> {
                 self.item(&path, kind, typed, path.clone())
             })
             .collect();
-        found.truncate(MOST_FILES);
+        found.truncate(MAX_FILES);
         found
     }
 

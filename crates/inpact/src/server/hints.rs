@@ -15,7 +15,7 @@ use inpact_parser::span::Span;
 use serde_json::{Value, json};
 
 /// The maximum number of bytes of rows searched for parameters at a time: an editor requests only the visible part.
-const MOST_BYTES: u64 = 1 << 20;
+const MAX_BYTES: u64 = 1 << 20;
 
 pub(super) fn hints(workspace: &mut Workspace, params: &InlayHintParams) -> Result<Option<Vec<InlayHint>>, Refusal> {
     let view = refusal::view(workspace, &params.text_document)?;
@@ -64,7 +64,7 @@ fn values(view: View<'_>, shown: Span) -> Vec<InlayHint> {
     }
     let Some(text) = view.text_of(view.source) else { return Vec::new() };
     let (_, start) = text.line_of(shown.start());
-    let part = Span::new(view.source, start, shown.end().min(start + MOST_BYTES));
+    let part = Span::new(view.source, start, shown.end().min(start + MAX_BYTES));
     let mut hints = Vec::new();
     for (line, bytes) in view.lines(part) {
         for reference in references(&bytes) {

@@ -27,7 +27,7 @@ pub(super) enum Incoming {
     /// An opened document with a long text, which is empty in the notification.
     Opening(Notification, EditedText),
     /// An invalid message: the response to it.
-    Nonsense {
+    Malformed {
         id: Option<RequestId>,
         code: ErrorCode,
         reason: String,
@@ -99,12 +99,12 @@ fn read_all(input: &mut impl BufRead, sender: &Sender<Incoming>, cancelled: &Can
             Body::Whole(message) => decode(message),
             Body::Faulty(reason) => {
                 let reason = format!("the message is no JSON: {reason}");
-                Incoming::Nonsense { id: None, code: ErrorCode::ParseError, reason }
+                Incoming::Malformed { id: None, code: ErrorCode::ParseError, reason }
             }
             Body::TooLong(length) => {
                 let reason =
                     format!("a message of {length} bytes is longer than {LONGEST_MESSAGE}, the most that is read");
-                Incoming::Nonsense { id: None, code: ErrorCode::InvalidRequest, reason }
+                Incoming::Malformed { id: None, code: ErrorCode::InvalidRequest, reason }
             }
         };
         if let Incoming::Message(Message::Notification(notification)) = &incoming
@@ -165,7 +165,7 @@ fn read_body(input: &mut impl BufRead) -> io::Result<Option<Body>> {
 
 /// Makes a message of JSON.
 fn decode(LongMessage { json, mut texts }: LongMessage) -> Incoming {
-    let nonsense = |id, code, reason: &str| Incoming::Nonsense { id, code, reason: reason.to_owned() };
+    let nonsense = |id, code, reason: &str| Incoming::Malformed { id, code, reason: reason.to_owned() };
     let value: Value = match serde_json::from_slice(&json) {
         Ok(value) => value,
         Err(error) => return nonsense(None, ErrorCode::ParseError, &format!("the message is no JSON: {error}")),
@@ -274,7 +274,7 @@ mod tests {
                     format!("notification {}", notification.method)
                 }
                 Incoming::Message(Message::Response(response)) => format!("response {}", response.id),
-                Incoming::Nonsense { reason, .. } => format!("nonsense: {reason}"),
+                Incoming::Malformed { reason, .. } => format!("nonsense: {reason}"),
             })
             .collect();
         assert_eq!(found, expected, "{}", String::from_utf8_lossy(input));
@@ -324,7 +324,7 @@ mod tests {
         read_all(&mut &*[framed(&opening), framed(&other)].concat(), &sender, &Cancelled::new(Stop::new()));
         drop(sender);
         let found: Vec<Incoming> = receiver.iter().collect();
-        let [Incoming::Opening(_, text), Incoming::Nonsense { .. } | Incoming::Message(_)] = &found[..] else {
+        let [Incoming::Opening(_, text), Incoming::Malformed { .. } | Incoming::Message(_)] = &found[..] else {
             panic!("{}", found.len());
         };
         assert_eq!(format!("opening of {} bytes", text.length()), name);

@@ -7,7 +7,7 @@ use crate::scene::rules::{MALFORMED_SCENE, MALFORMED_TIME};
 use crate::scene::usable::{self, Given};
 use crate::scene::values::Number;
 use crate::scene::{Field, Scene, SceneInterface, SceneLink};
-use inpact_parser::model::{MOST_FIELD_VARIABLES, Name};
+use inpact_parser::model::{MAX_FIELD_VARIABLES, Name};
 use toml::Spanned;
 
 impl Reader<'_> {
@@ -142,9 +142,9 @@ impl Reader<'_> {
         let numbers = ends.map(|(name, what)| self.number(name.as_ref(), start(name), what, scene));
         let [slave, master] = [entry.slave.as_ref(), entry.master.as_ref()];
         let label = format!("the interface of `{slave}` and `{master}`");
-        if entry.fv.len() > MOST_FIELD_VARIABLES {
+        if entry.fv.len() > MAX_FIELD_VARIABLES {
             let message = format!("`fv` of {label} has {} numbers", entry.fv.len());
-            let help = format!("a deck has {MOST_FIELD_VARIABLES} field variables at most");
+            let help = format!("a deck has {MAX_FIELD_VARIABLES} field variables at most");
             self.report(&MALFORMED_SCENE, at, message, &help);
         }
         let mut field_variables = Vec::new();

@@ -8,7 +8,7 @@ use inpact_parser::model::Name;
 use toml::Spanned;
 
 /// The maximum plausible number of steps of a deck.
-const MOST_STEPS: f64 = 1e6;
+const MAX_STEPS: f64 = 1e6;
 
 impl Reader<'_> {
     /// The conditions taken from the deck.
@@ -17,9 +17,9 @@ impl Reader<'_> {
         let line = self.line_of(entry);
         let Some(number) = &entry.as_ref().step else { return Some(ConditionsOfDeck { step: None, line }) };
         let value = number.value();
-        if !((1.0..=MOST_STEPS).contains(&value) && value.fract() == 0.0) {
+        if !((1.0..=MAX_STEPS).contains(&value) && value.fract() == 0.0) {
             let message = format!("`conditions.step` is {}", self.written(number));
-            let help = format!("give the number of a step of the deck, from 1 to {MOST_STEPS:.0} at most");
+            let help = format!("give the number of a step of the deck, from 1 to {MAX_STEPS:.0} at most");
             self.report(&MALFORMED_SCENE, number.span().start, message, &help);
             return None;
         }

@@ -11,7 +11,7 @@ use inpact_evaluation::law::ClosingHeat;
 const LEAST_TOLERANCE: f64 = 1e-12;
 
 /// More increments are probably an error of units: their states alone would fill a disk.
-const MOST_INCREMENTS: f64 = 1e7;
+const MAX_INCREMENTS: f64 = 1e7;
 
 impl Reader<'_> {
     pub(super) fn procedure(&mut self, file: &SceneFile) -> Procedure {
@@ -93,10 +93,10 @@ impl Reader<'_> {
                 return Err((Some(number), message, "give a longer one, or count the time from a start nearer to 0"));
             }
         }
-        if let Some(number) = step.as_ref().filter(|step| MOST_INCREMENTS < (to - from) / step.value()) {
+        if let Some(number) = step.as_ref().filter(|step| MAX_INCREMENTS < (to - from) / step.value()) {
             let increments = (to - from) / number.value();
             let message =
-                format!("a `step` of {} makes {increments:.0} increments, more than {MOST_INCREMENTS:.0}", shown(step));
+                format!("a `step` of {} makes {increments:.0} increments, more than {MAX_INCREMENTS:.0}", shown(step));
             return Err((Some(number), message, "give a longer `step`, or `tolerance` for increments by their error"));
         }
         Ok(span)

@@ -13,14 +13,14 @@ use crate::json::parse;
 use crate::model::named_in;
 use crate::model::{
     CellText, ConstraintMethod, ContactPair, ContactPermeability, ElectricalConductance, GivenParameter,
-    HeatGeneration, Interaction, MOST_FIELD_VARIABLES, Model, Name, Procedure, PropertyAssignment, Reference,
-    SubOption, SurfacePair, Table,
+    HeatGeneration, Interaction, MAX_FIELD_VARIABLES, Model, Name, Procedure, PropertyAssignment, Reference, SubOption,
+    SurfacePair, Table,
 };
 use crate::span::{SourceId, Span};
 use std::collections::HashSet;
 
 /// The greatest number of a step: every step up to it is written, also those without a procedure.
-const MOST_STEPS: usize = 100_000;
+const MAX_STEPS: usize = 100_000;
 
 /// Reads the model view back.
 ///
@@ -208,9 +208,9 @@ impl TableDocument {
         let mut table = Table { columns: self.columns.into(), ..Table::default() };
         if let Some(dependencies) = self.dependencies {
             let listed = table.dependencies();
-            if dependencies < listed || MOST_FIELD_VARIABLES < dependencies {
+            if dependencies < listed || MAX_FIELD_VARIABLES < dependencies {
                 let message = format!(
-                    "expected a number from {listed}, which are listed, to {MOST_FIELD_VARIABLES}, found {dependencies}"
+                    "expected a number from {listed}, which are listed, to {MAX_FIELD_VARIABLES}, found {dependencies}"
                 );
                 return Err(Error::json(format!("{path}.dependencies"), message));
             }
@@ -284,8 +284,8 @@ impl ProcedureDocument {
             table: None,
             rows: self.rows.into_iter().collect(),
         };
-        if self.step > MOST_STEPS {
-            let message = format!("expected the number of a step from 0 to {MOST_STEPS}, found {}", self.step);
+        if self.step > MAX_STEPS {
+            let message = format!("expected the number of a step from 0 to {MAX_STEPS}, found {}", self.step);
             return Err(Error::json(format!("procedures[{index}].step"), message));
         }
         let procedure = Procedure { step: self.step, option };

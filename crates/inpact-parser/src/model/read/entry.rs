@@ -5,13 +5,13 @@ use crate::deck::lines::lines;
 use crate::deck::{Block, KeywordLine, Parameter, RowsKept};
 use crate::grammar::{Definition, KeywordId, RowShape};
 use crate::model::rows::{most_written, read_table, table_of_ends};
-use crate::model::{GivenParameter, MOST_FIELD_VARIABLES, Name, Reference, SharedText, SubOption, Table, TextRows};
+use crate::model::{GivenParameter, MAX_FIELD_VARIABLES, Name, Reference, SharedText, SubOption, Table, TextRows};
 use crate::number::{read_float, read_integer};
 use crate::span::Span;
 use std::sync::Arc;
 
 /// The number of kinds of tables whose column names are shared.
-const MOST_KINDS: usize = 64;
+const MAX_KINDS: usize = 64;
 
 /// A block whose keyword the grammar defines.
 #[derive(Clone, Copy)]
@@ -63,7 +63,7 @@ impl Reader<'_> {
         match self.columns.iter().find(|columns| **columns == table.columns) {
             Some(columns) => table.columns = Arc::clone(columns),
             // There are few kinds of tables, except invented ones.
-            None if self.columns.len() < MOST_KINDS => self.columns.push(Arc::clone(&table.columns)),
+            None if self.columns.len() < MAX_KINDS => self.columns.push(Arc::clone(&table.columns)),
             None => {}
         }
         Some(table)
@@ -72,7 +72,7 @@ impl Reader<'_> {
     pub(super) fn dependencies(&self, option: Entry<'_>) -> usize {
         let value = self.value_of(option, "DEPENDENCIES");
         let number = value.and_then(|value| read_integer(value.as_bytes()).ok()).unwrap_or(0);
-        usize::try_from(number).unwrap_or(0).min(MOST_FIELD_VARIABLES)
+        usize::try_from(number).unwrap_or(0).min(MAX_FIELD_VARIABLES)
     }
 
     pub(super) fn generic(&mut self, option: Entry<'_>) -> SubOption {

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::time::Duration;
 
 /// Up to this number of interactions each has a line in the summary; more share one.
-const MOST_INTERACTIONS: usize = 12;
+const MAX_INTERACTIONS: usize = 12;
 
 /// Summary of an evaluation, for standard error.
 pub(super) struct Summary<'a> {
@@ -30,7 +30,7 @@ impl Summary<'_> {
     /// The lines about the interactions.
     pub(super) fn of_interactions(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        if self.plan.interactions.len() > MOST_INTERACTIONS {
+        if self.plan.interactions.len() > MAX_INTERACTIONS {
             let whole = self.tally.whole();
             let sum = |count: fn(&InteractionPlan) -> u64| self.plan.interactions.iter().map(count).sum();
             let contact = Contact { closed: sum(|plan| plan.closed), open: sum(|plan| plan.open) };

@@ -8,7 +8,7 @@ use inpact_network::scene::{
 };
 use inpact_network::{Error, ErrorKind, RowFault};
 
-const MOST_NAMED: usize = 8;
+const MAX_NAMED: usize = 8;
 
 /// The findings of a failure in a scene of this name, in the increment after a time where there was one.
 pub(super) fn findings(failure: &Error, scene: &Scene, (name, after): (&str, Option<f64>)) -> Vec<Diagnostic> {
@@ -115,7 +115,7 @@ fn floating_help(of: Option<Field>, field: &str, scene: &Scene) -> String {
 }
 
 fn names(scene: &Scene, nodes: &[u32]) -> String {
-    let named = in_backticks(nodes.iter().take(MOST_NAMED).map(|&node| &scene.nodes[node as usize]));
-    let others = nodes.len().saturating_sub(MOST_NAMED);
+    let named = in_backticks(nodes.iter().take(MAX_NAMED).map(|&node| &scene.nodes[node as usize]));
+    let others = nodes.len().saturating_sub(MAX_NAMED);
     if others == 0 { named } else { format!("{named} and {others} more nodes") }
 }

@@ -186,11 +186,11 @@ fn linear_reports(state: &State) -> impl Iterator<Item = (Field, &LinearReport)>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use inpact_network::linear::{NoSolution, Quality, Shortcoming};
+    use inpact_network::linear::{MethodFailure, NoSolution, Quality};
 
     /// A report of a method reached as a fallback.
     fn report(method: Method, given_up: &[Method]) -> LinearReport {
-        let why = Shortcoming::NoSolution(NoSolution::Iterations);
+        let why = MethodFailure::NoSolution(NoSolution::Iterations);
         LinearReport {
             method,
             unknowns: 1,

@@ -43,7 +43,7 @@ const METHODS: [Method; 3] = [Method::Direct, Method::Mixed, Method::Iterative];
 const TOLERANCES: [f64; 5] = [LAST_DIGIT, 1e-12, 1e-9, 1e-6, 1e-3];
 
 /// Up to this number of nodes the reference is elimination: in three dimensions that takes a quarter of a second, and several times as long with Newton's iteration.
-const MOST_NODES: usize = 1000;
+const MAX_NODES: usize = 1000;
 
 /// The time since the first call, for the phases of solvers.
 fn clock() -> Duration {
@@ -60,8 +60,8 @@ pub(super) fn subjects() -> impl Iterator<Item = Subject> {
 pub(super) fn reference(prepared: &SolvableScene, problem: &Problem<'_>, usual: &Solved) -> Reference {
     let nodes = problem.scene().nodes.len();
     let direct = |reason| Reference { subject: USUAL, reason, states: usual.states.clone() };
-    if MOST_NODES < nodes {
-        return direct(format!("elimination would be slow on more than {MOST_NODES} nodes"));
+    if MAX_NODES < nodes {
+        return direct(format!("elimination would be slow on more than {MAX_NODES} nodes"));
     }
     match EXACT.solve(problem) {
         Ok(Solved { states, .. }) => {

@@ -2,7 +2,7 @@
 
 use crate::commands::evaluable::{Evaluable, PATIENCE, spill_file};
 use crate::failure::Failure;
-use inpact_evaluation::nodes::{Batch, GivenBack};
+use inpact_evaluation::nodes::{Batch, KeptRowsIter};
 use inpact_evaluation::plan::{Choices, Plan};
 use inpact_evaluation::results::{Along, ResultBatch, ResultWriter};
 use inpact_evaluation::table::PiecewiseTable;
@@ -100,7 +100,7 @@ pub(super) fn gather(
 /// Evaluates all rows and discards the written results; returns the times of laws and writing.
 fn timed(
     (model, plan, choices): (&Model, &Plan, &Choices),
-    mut rows: GivenBack,
+    mut rows: KeptRowsIter,
     mut take: impl FnMut(&Batch),
 ) -> io::Result<(Duration, Duration)> {
     let mut evaluation = Evaluation::on_all_threads(model, plan, choices);
