@@ -1,7 +1,7 @@
-//! Labels of nodes as histories are looked up by them: whole numbers as numbers, everything else as its text.
+//! Node labels, the keys of histories: whole numbers as `i64`, everything else as text.
 //!
-//! A number is told by its value and not by how it is stored: `7` of comma-separated values is the 7 of a column of integers.
-//! `007` and `7.0` are other labels than `7`, since they are other texts.
+//! A number is compared by value, however it is stored: `7` in comma-separated values equals 7 in a column of integers.
+//! `007` and `7.0` are labels other than `7`, since their texts differ.
 
 use super::batch::LabelColumn;
 #[cfg(feature = "columnar")]
@@ -11,7 +11,7 @@ use std::fmt;
 /// The label of a node; blanks around it do not count.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(crate) enum NodeLabel<'a> {
-    /// A whole number, which says all of its text.
+    /// A whole number that prints as the text.
     Number(i64),
     /// Any other text, and a number beyond 64 bits.
     Text(&'a [u8]),
@@ -71,7 +71,7 @@ impl<'a> NodeLabels<'a> {
 /// The number that prints as this text: without leading zeros, plus sign or minus zero.
 #[inline]
 fn whole_number(text: &[u8]) -> Option<i64> {
-    /// So many digits surely fit.
+    /// The number of digits that always fits.
     const MAX_DIGITS: usize = 18;
     let (digits, sign) = text.strip_prefix(b"-").map_or((text, 1), |digits| (digits, -1));
     match digits {
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_told_by_their_values_and_texts_by_their_letters() {
+    fn numbers_are_compared_by_value_and_texts_by_their_bytes() {
         let numbers = ["0", " 7 ", "-12", "999999999999999999", "9223372036854775807", "-9223372036854775808"];
         assert_eq!(numbers.map(number), numbers.map(|text| text.trim().parse().ok()));
         for text in ["", " ", "-", "-0", "00", "007", "+7", "7.0", "7e0", "A.7", "1_0", "9223372036854775808", "１"] {

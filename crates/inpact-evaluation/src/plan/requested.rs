@@ -15,6 +15,7 @@ use super::{
 use crate::law::contact::ContactState;
 use crate::law::electrical::plan::LAW as ELECTRICAL_LAW;
 use crate::law::pore::plan::LAW as PORE_LAW;
+use crate::law::thermal::plan::LAW as THERMAL_LAW;
 use crate::nodes::{Findings, MISSING_COLUMN, Place};
 use crate::results::{Along, Output};
 use inpact_parser::model::Regime;
@@ -33,22 +34,19 @@ pub(crate) fn keep_requested(plan: &mut InteractionPlan, choices: &Choices) {
         let needs_thermal = plan.outputs.iter().any(is_of_thermal) || has(&OF_FRICTION);
         if plan.electrical.is_some() && !has_status && !needs_current && !plan.outputs.iter().any(is_of_electrical) {
             let cost = plan.electrical.iter().flat_map(|law| &law.tables).map(TablePlan::whole_cost).sum();
-            plan.dropped.push(Dropped::not_requested("electrical law", cost));
             plan.electrical = None;
-            plan.left_out.push(LeftOut::law("electrical law", Reason::NotRequested));
+            drop_law(plan, ELECTRICAL_LAW, cost);
         }
         if plan.thermal.is_some() && !has_status && !needs_thermal {
             let conduction = plan.thermal.iter().flat_map(|law| &law.conduction);
             let cost = conduction.flat_map(|part| &part.tables).map(TablePlan::whole_cost).sum();
-            plan.dropped.push(Dropped::not_requested("thermal law", cost));
             plan.thermal = None;
-            plan.left_out.push(LeftOut::law("thermal law", Reason::NotRequested));
+            drop_law(plan, THERMAL_LAW, cost);
         }
         if plan.pore.is_some() && !has_status && !plan.outputs.iter().any(is_of_pore) {
             let cost = plan.pore.iter().flat_map(|law| &law.table).map(TablePlan::whole_cost).sum();
-            plan.dropped.push(Dropped::not_requested("pore fluid law", cost));
             plan.pore = None;
-            plan.left_out.push(LeftOut::law("pore fluid law", Reason::NotRequested));
+            drop_law(plan, PORE_LAW, cost);
         }
         let names: Vec<String> = dropped.iter().map(|output| format!("`{output}`")).collect();
         if !names.is_empty() {
@@ -134,6 +132,12 @@ fn drop_from_thermal(law: &mut ThermalPlan, outputs: &[Output]) {
     if !has_sum && !has(&OF_FRICTION) {
         law.friction = None;
     }
+}
+
+/// Records that no requested output needs a law.
+fn drop_law(plan: &mut InteractionPlan, law: &str, cost: f64) {
+    plan.dropped.push(Dropped::not_requested(law, cost));
+    plan.left_out.push(LeftOut::law(law, Reason::NotRequested));
 }
 
 fn drop_from_pore(law: &mut PorePlan, has: impl Fn(&[Output]) -> bool) {

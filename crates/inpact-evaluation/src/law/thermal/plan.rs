@@ -74,6 +74,9 @@ impl ThermalPlan {
     }
 }
 
+/// The name of the law where it is left out.
+pub(crate) const LAW: &str = "thermal law";
+
 /// Plans the thermal law; `None` after reporting why there is none.
 pub(crate) fn plan_thermal(
     planner: Planner<'_>,
