@@ -54,12 +54,16 @@ pub(super) struct ShardResults {
 
 impl<'a> Waiting<'a> {
     pub(super) fn new(laws: &Laws, part: Part<'a>, found: Found, shards: usize) -> Self {
-        let nodes = laws.node.map(|node| NodeLabels::of(&part.batch().labels[node]));
-        let label = |row| nodes.as_ref().map_or(NodeLabel::Text(b""), |nodes| nodes.get(row));
-        let shards = (0..part.rows()).map(|row| shard_of(part.interaction, label(row), shards)).collect();
-        drop(nodes);
+        let shards = shards_of(laws, &part, shards);
         Self { part, found, shards }
     }
+}
+
+/// The shard of each row of a part.
+fn shards_of(laws: &Laws, part: &Part<'_>, shards: usize) -> Vec<u32> {
+    let nodes = laws.node.map(|node| NodeLabels::of(&part.batch().labels[node]));
+    let label = |row| nodes.as_ref().map_or(NodeLabel::Text(b""), |nodes| nodes.get(row));
+    (0..part.rows()).map(|row| shard_of(part.interaction, label(row), shards)).collect()
 }
 
 /// The shard of a node, the same for all of its rows.
