@@ -1,4 +1,4 @@
-"""From whatever users have to contiguous columns of float64, and back; imported when the first array is needed, as NumPy is."""
+"""From whatever users have to contiguous columns of float64, and back; imported with the first array, as NumPy is."""
 
 from __future__ import annotations
 
