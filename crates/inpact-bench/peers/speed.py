@@ -293,7 +293,7 @@ def page(runs, results, benches):
 
 def print_benches(folder):
     for name, title, arguments in (
-        ("facade", "Arrow in memory to Arrow in memory", ["1000000", "--rounds", "6"]),
+        ("facade", "Arrow in memory to Arrow in memory", ["1000000", "--rounds", "20"]),
         ("kernels", "Kernels", ["1000000", "--rounds", "3"]),
     ):
         programs = [path for path in Path(folder).glob(f"{name}-*") if path.suffix == "" and os.access(path, os.X_OK)]
