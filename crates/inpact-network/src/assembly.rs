@@ -97,7 +97,7 @@ fn conducts(
 /// The number of temperatures or pore pressures at which a row that conducts nothing at a first guess is evaluated.
 const PROBES: u32 = 65;
 
-/// The largest conductance elsewhere in the table of a row that conducts nothing at a first guess; `None` where it is zero everywhere.
+/// The largest finite conductance elsewhere in the table of a row that conducts nothing at a first guess; `None` where it is zero everywhere.
 fn elsewhere(
     knowledge: &Knowledge<'_>,
     field: Field,
@@ -114,8 +114,8 @@ fn elsewhere(
         };
         conducts(knowledge, field, laws, (of, contact, &sides)).unwrap_or_default()
     });
-    let largest = probes.max_by(|one, other| one.conductance.total_cmp(&other.conductance))?;
-    (0.0 < largest.conductance && largest.conductance.is_finite()).then_some(largest)
+    let finite = probes.filter(|of| of.conductance.is_finite());
+    finite.max_by(|one, other| one.conductance.total_cmp(&other.conductance)).filter(|of| 0.0 < of.conductance)
 }
 
 /// Net flow into each node of a field from sources of the scene, friction and gap filling, W, A or L³/T.
